@@ -1,0 +1,22 @@
+"""nsode: from differential inclusions with dry friction and rigid contact to ODEs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from nsode.compiler import Model as Model
+    from nsode.compiler import load as load
+    from nsode.compiler import loads as loads
+
+__version__ = "0.1.0"
+__all__ = ["Model", "__version__", "load", "loads"]
+
+
+def __getattr__(name: str) -> object:
+    # The compiler loads when it is used, so that `nsode --help` stays quick.
+    if name in {"Model", "load", "loads"}:
+        from nsode import compiler
+
+        return getattr(compiler, name)
+    raise AttributeError(f"module `nsode` has no attribute `{name}`")

@@ -1,0 +1,38 @@
+"""Stage 4: what an augmented ODE is written as. One module for each target.
+
+A module has ``emit(ode, options) -> {file name: text}`` and ``lower(expr, ...)``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Literal
+
+from nsode.ode import AugmentedODE
+
+#: Every target with the module that emits it; a module is imported when it is used.
+TARGETS: dict[str, str] = {
+    "c": "nsode.backends.c",
+    "numpy": "nsode.backends.numpy",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What a target may be asked for; ``prefix`` None means the name of the model."""
+
+    prefix: str | None = None
+    real: Literal["double", "float"] = "double"
+
+
+def emit(target: str, ode: AugmentedODE, options: Options = Options()) -> dict[str, str]:
+    """Return the files that a target consists of, by name.
+
+    Raises
+    ------
+    KeyError
+        If there is no such target.
+    """
+    files: dict[str, str] = import_module(TARGETS[target]).emit(ode, options)
+    return files
