@@ -1,0 +1,43 @@
+"""Fixtures that tests of several kinds share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pytest
+
+import nsode
+from nsode.ode import AugmentedODE
+from support.native import FLAGS, Native, Real, build, have
+
+
+def pytest_report_header() -> str:
+    return f"nsode {nsode.__version__} from {Path(nsode.__file__).parent}"
+
+
+@pytest.fixture(scope="session")
+def compile_c(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Native]:
+    """``compile_c(ode or text, real=, cc=, flags=, prefix=)``: the C of a model, loaded."""
+
+    def compile_(
+        model: AugmentedODE | str | Path,
+        *,
+        real: Real = "double",
+        cc: str = "gcc",
+        flags: Sequence[str] = FLAGS,
+        prefix: str | None = None,
+    ) -> Native:
+        if not have(cc):
+            pytest.skip(f"{cc} is not installed")
+        match model:
+            case AugmentedODE():
+                ode = model
+            case Path():
+                ode = nsode.load(model).ode
+            case _:
+                ode = nsode.loads(model).ode
+        folder = tmp_path_factory.mktemp(ode.name)
+        return build(ode, folder, real=real, cc=cc, flags=flags, prefix=prefix)
+
+    return compile_
