@@ -1,0 +1,143 @@
+"""Models are read with care; files are written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import stat
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import BinaryIO
+
+from nsode.diagnostics import Diagnostic, Label, ModelError
+from nsode.source import Source, Span
+
+#: Bytes beyond which a model is not even read.
+LARGEST = 64 * 2**20
+
+
+def read_source(path: Path) -> Source:
+    """Read the text of a model from a regular file.
+
+    Raises
+    ------
+    ModelError
+        If the file cannot be read or is not a text.
+    """
+    try:
+        # Not blocking, so that a named pipe without a writer is refused instead of awaited.
+        with os.fdopen(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise ModelError([Diagnostic("NS601", f"`{path}` is not a regular file")])
+            return read_stream(file, str(path))
+    except (OSError, ValueError) as error:
+        cause = error.strerror if isinstance(error, OSError) else str(error)
+        reason = (cause or type(error).__name__).lower()
+        raise ModelError([Diagnostic("NS601", f"cannot read `{path}`: {reason}")]) from error
+
+
+def read_stream(stream: BinaryIO, name: str) -> Source:
+    """Read the text of a model from an open stream, to be shown under ``name``.
+
+    Raises
+    ------
+    ModelError
+        If it is too large or not UTF-8.
+    """
+    data = stream.read(LARGEST + 1)
+    if len(data) > LARGEST:
+        message = f"`{name}` is larger than {LARGEST // 2**20} MiB"
+        raise ModelError([Diagnostic("NS012", message)])
+    try:
+        return Source(name, data.decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        raise _not_utf8(data, error, name) from error
+
+
+def _not_utf8(data: bytes, error: UnicodeDecodeError, name: str) -> ModelError:
+    source = Source(name, data.decode("utf-8", errors="replace"))
+    place = len(data[: error.start].decode("utf-8", errors="replace"))
+    label = Label(Span(place, place + 1), "no character begins with this byte")
+    message = f"not UTF-8 at byte {error.start + 1}"
+    return ModelError(
+        [Diagnostic("NS002", message, (label,), help="save the file as UTF-8")], source
+    )
+
+
+def write_all(files: Mapping[str, str], folder: Path) -> list[Path]:
+    """Write every file into ``folder``, which is made if need be, or none of them.
+
+    All texts reach the disk under other names first; only then do the files appear.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be written; nothing half written stays behind.
+    ValueError
+        If a name is more than the name of a file.
+    """
+    targets = [_inside(folder, name) for name in files]
+    folder.mkdir(parents=True, exist_ok=True)
+    for target in targets:
+        if target.is_dir():
+            raise IsADirectoryError(21, "is a directory", str(target))
+    drafts: list[Path] = []
+    try:
+        for target, text in zip(targets, files.values(), strict=True):
+            drafts.append(_draft(target, text))
+        for draft, target in zip(drafts, targets, strict=True):
+            draft.replace(target)
+    finally:
+        for draft in drafts:
+            draft.unlink(missing_ok=True)
+    _settle(folder)
+    return targets
+
+
+def create(path: Path, text: str) -> None:
+    """Write a file that does not exist yet.
+
+    Raises
+    ------
+    FileExistsError
+        If something of that name is there.
+    """
+    os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
+    try:
+        write_all({path.name: text}, path.parent)
+    except BaseException:
+        path.unlink(missing_ok=True)
+        raise
+
+
+def _inside(folder: Path, name: str) -> Path:
+    if name in {"", ".", ".."} or Path(name).name != name or "\0" in name:
+        raise ValueError(f"`{name}` is not the plain name of a file")
+    return folder / name
+
+
+def _draft(target: Path, text: str) -> Path:
+    """Write ``text`` beside ``target``, down to the disk, under a name of its own."""
+    draft = target.with_name(f".{target.name}.{secrets.token_hex(6)}")
+    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL
+    try:
+        # The mode is that of a plain `open`, which `tempfile` would narrow to the owner.
+        with os.fdopen(os.open(draft, flags, 0o666), "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+    except BaseException:
+        draft.unlink(missing_ok=True)
+        raise
+    return draft
+
+
+def _settle(folder: Path) -> None:
+    """Make the names last, where the system lets a folder be synced."""
+    with suppress(OSError):
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
