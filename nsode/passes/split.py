@@ -1,0 +1,303 @@
+"""An ``if`` on indices alone is decided here: its range breaks where the condition changes.
+
+Walls are written ``if i > 0 then x[i-1] else 0``; the dead branch may be out of range.
+The places of change come from the affine forms of the conditions, so the cost grows
+with the number of pieces and never with the number of elements.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from itertools import chain, pairwise
+from math import ceil, floor, isfinite
+
+from nsode.expr import (
+    FUNCTIONS,
+    Call,
+    Expr,
+    If,
+    Index,
+    IndexRange,
+    Number,
+    Sum,
+    add,
+    children,
+    rebuild,
+)
+from nsode.ode import AugmentedODE, Binding, Check, Definition, LinearSolve, Rate
+
+#: One element of the piece at hand, for each index variable in scope.
+Sample = Mapping[str, int]
+_Affine = dict[str | None, Fraction]
+
+_COMPARISONS = {"<", "<=", ">", ">=", "==", "!="}
+
+
+def pieces(range: IndexRange, *exprs: Expr) -> list[tuple[IndexRange, tuple[Expr, ...]]]:
+    """Break a range into the fewest pieces in which no ``if`` on indices is left.
+
+    Parameters
+    ----------
+    range
+        The index over which the expressions stand.
+    *exprs
+        Expressions that share the range, such as the rows of a linear system.
+
+    Returns
+    -------
+    list
+        Each piece, in rising order, with the expressions as they read in it. A condition
+        that is no comparison of affine index expressions (``mod(i, 2) == 0``) stays.
+    """
+    cuts: set[int] = set()
+    for expr in exprs:
+        _collect_cuts(expr, range, cuts)
+    found: list[tuple[IndexRange, tuple[Expr, ...]]] = []
+    for piece in _break(range, cuts):
+        here = tuple(_resolve(expr, {range.variable: piece.first}) for expr in exprs)
+        if found and found[-1][1] == here:
+            found[-1] = (IndexRange(range.variable, found[-1][0].first, piece.last), here)
+        else:
+            found.append((piece, here))
+    return found
+
+
+def settle(expr: Expr) -> Expr:
+    """Decide what numbers alone decide in an expression without an index of its own."""
+    return _resolve(expr, {})
+
+
+def split(ode: AugmentedODE) -> AugmentedODE:
+    """Break families into pieces without an ``if`` on indices; empty ranges vanish.
+
+    Bindings, solves, rates and checks come in pieces. A state and an output keep one item
+    each, for their places; where such a value differs between pieces it keeps its ``if``,
+    and a backend calls :func:`pieces` where it writes it.
+    """
+    return replace(
+        ode,
+        bindings=tuple(chain.from_iterable(map(_split_definition, ode.bindings))),
+        rates=tuple(chain.from_iterable(map(_split_rate, ode.rates))),
+        checks=tuple(chain.from_iterable(map(_split_check, ode.checks))),
+        states=tuple(replace(s, initial=_whole(s.range, s.initial)) for s in ode.states),
+        outputs=tuple(replace(y, value=_whole(y.range, y.value)) for y in ode.outputs),
+    )
+
+
+def _split_definition(item: Definition) -> Iterable[Definition]:
+    match item:
+        case Binding(value=value, range=None):
+            return [replace(item, value=settle(value))]
+        case Binding(value=value, range=IndexRange() as over):
+            return [replace(item, range=r, value=v) for r, (v,) in pieces(over, value)]
+        case LinearSolve(matrix=matrix, right=right, range=None):
+            rows = tuple(tuple(map(settle, row)) for row in matrix)
+            return [replace(item, matrix=rows, right=tuple(map(settle, right)))]
+        case LinearSolve(range=IndexRange() as over):
+            return [_rows(item, r, entries) for r, entries in _solve_pieces(item, over)]
+        case _:
+            raise NotImplementedError(f"no way to split {type(item).__name__}")
+
+
+def _solve_pieces(
+    solve: LinearSolve, over: IndexRange
+) -> list[tuple[IndexRange, tuple[Expr, ...]]]:
+    return pieces(over, *chain.from_iterable(solve.matrix), *solve.right)
+
+
+def _rows(solve: LinearSolve, over: IndexRange, entries: tuple[Expr, ...]) -> LinearSolve:
+    n = len(solve.unknowns)
+    matrix = tuple(entries[n * row : n * (row + 1)] for row in range(n))
+    return replace(solve, range=over, matrix=matrix, right=entries[n * n :])
+
+
+def _split_rate(rate: Rate) -> Iterable[Rate]:
+    if rate.range is None:
+        return [replace(rate, value=settle(rate.value))]
+    return [replace(rate, range=r, value=v) for r, (v,) in pieces(rate.range, rate.value)]
+
+
+def _split_check(check: Check) -> Iterable[Check]:
+    if check.range is None:
+        found = [replace(check, condition=settle(check.condition))]
+    else:
+        found = [
+            replace(check, range=r, condition=c) for r, (c,) in pieces(check.range, check.condition)
+        ]
+    return [item for item in found if item.condition != _literal(True)]
+
+
+def _whole(over: IndexRange | None, value: Expr) -> Expr:
+    if over is None:
+        return settle(value)
+    found = pieces(over, value)
+    return found[0][1][0] if len(found) == 1 else value
+
+
+def _break(over: IndexRange, cuts: Iterable[int]) -> list[IndexRange]:
+    """Return the parts of a range that begin at the cuts."""
+    if not len(over):
+        return []
+    starts = sorted({over.first, *(cut for cut in cuts if over.first < cut <= over.last)})
+    return [IndexRange(over.variable, a, b - 1) for a, b in pairwise([*starts, over.last + 1])]
+
+
+def _collect_cuts(expr: Expr, over: IndexRange, cuts: set[int]) -> None:
+    """Gather where conditions on the index change, following live branches only."""
+    match expr:
+        case If(condition, then, otherwise):
+            own: set[int] = set()
+            _collect_cuts(condition, over, own)
+            cuts |= own
+            for piece in _break(over, own):
+                match _decide(condition, {over.variable: piece.first}):
+                    case bool(known):
+                        _collect_cuts(then if known else otherwise, piece, cuts)
+                    case _:
+                        _collect_cuts(then, piece, cuts)
+                        _collect_cuts(otherwise, piece, cuts)
+        case Sum(range=inner) if inner.variable == over.variable:
+            pass
+        case Call(function, (left, right)) if (
+            function in _COMPARISONS and (root := _root(left, right, over.variable)) is not None
+        ):
+            cuts.update((ceil(root), floor(root) + 1))
+        case _:
+            for child in children(expr):
+                _collect_cuts(child, over, cuts)
+
+
+def _root(left: Expr, right: Expr, variable: str) -> Fraction | None:
+    """Return where ``left - right`` is zero if it is affine in this variable alone."""
+    difference = _difference(left, right)
+    if difference is None or set(difference) != {None, variable}:
+        return None
+    return -difference[None] / difference[variable]
+
+
+def _resolve(expr: Expr, sample: Sample) -> Expr:
+    match expr:
+        case If(condition, then, otherwise):
+            match _decide(condition, sample):
+                case bool(known):
+                    return _resolve(then if known else otherwise, sample)
+                case Expr() as undecided:
+                    a, b = _resolve(then, sample), _resolve(otherwise, sample)
+                    return replace(expr, condition=undecided, then=a, otherwise=b)
+        case Sum():
+            return _resolve_sum(expr, sample)
+        case Call(function) if FUNCTIONS[function].boolean:
+            decided = _decide(expr, sample)
+            return _literal(decided) if isinstance(decided, bool) else decided
+        case _:
+            return rebuild(expr, lambda child: _resolve(child, sample))
+
+
+def _resolve_sum(expr: Sum, sample: Sample) -> Expr:
+    outer = {name: at for name, at in sample.items() if name != expr.range.variable}
+    parts = [
+        replace(expr, range=piece, body=body)
+        for piece, (body,) in pieces(expr.range, _resolve(expr.body, outer))
+    ]
+    return add(*parts) if parts else Number(0.0, span=expr.span)
+
+
+def _decide(condition: Expr, sample: Sample) -> bool | Expr:
+    """Return the truth of a condition where indices tell it, else what is left of it."""
+    match condition:
+        case Call("not", (inner,)):
+            known = _decide(inner, sample)
+            return not known if isinstance(known, bool) else replace(condition, args=(known,))
+        case Call("and" | "or" as function, (left, right)):
+            absorbing = function == "or"
+            a, b = _decide(left, sample), _decide(right, sample)
+            if a is absorbing or b is absorbing:
+                return absorbing
+            if isinstance(a, bool):
+                return b
+            return a if isinstance(b, bool) else replace(condition, args=(a, b))
+        case Call(function, (left, right)) if function in _COMPARISONS:
+            truth = _compare(function, left, right, sample)
+            return _rebuilt(condition, sample) if truth is None else truth
+        case _:
+            return _rebuilt(condition, sample)
+
+
+def _rebuilt(expr: Expr, sample: Sample) -> Expr:
+    return rebuild(expr, lambda child: _resolve(child, sample))
+
+
+def _compare(function: str, left: Expr, right: Expr, sample: Sample) -> bool | None:
+    difference = _difference(left, right)
+    if difference is None:
+        return None
+    variables = [v for v in difference if v is not None]
+    # The sample stands for its piece in one variable; two would need an area.
+    if len(variables) > 1 or any(v not in sample for v in variables):
+        return None
+    value = difference[None] + sum(difference[v] * sample[v] for v in variables)
+    return {
+        "<": value < 0,
+        "<=": value <= 0,
+        ">": value > 0,
+        ">=": value >= 0,
+        "==": value == 0,
+        "!=": value != 0,
+    }[function]
+
+
+def _literal(truth: bool) -> Expr:
+    return Call("<=", (Number(0.0), Number(0.0 if truth else -1.0)))
+
+
+def _difference(left: Expr, right: Expr) -> _Affine | None:
+    a, b = _affine(left), _affine(right)
+    return None if a is None or b is None else _combine(a, b, Fraction(-1))
+
+
+def _combine(a: _Affine, b: _Affine, factor: Fraction) -> _Affine:
+    total = {v: a.get(v, Fraction(0)) + factor * b.get(v, Fraction(0)) for v in (*a, *b)}
+    return {v: slope for v, slope in total.items() if v is None or slope}
+
+
+def _affine(expr: Expr) -> _Affine | None:
+    """Return the slope of each index and the constant (under None); None if not affine."""
+    match expr:
+        case Number(value) if isfinite(value):
+            return {None: Fraction(value)}
+        case Index(None, offset):
+            return {None: Fraction(offset)}
+        case Index(str() as variable, offset):
+            return {None: Fraction(offset), variable: Fraction(1)}
+        case Call("neg", (inner,)):
+            return _scaled(_affine(inner), Fraction(-1))
+        case Call("+", terms):
+            return _affine_sum(terms)
+        case Call("*", (left, right)):
+            a, b = _affine(left), _affine(right)
+            if a is not None and b is not None and len(a) > 1:
+                a, b = b, a
+            return _scaled(b, a[None]) if a is not None and len(a) == 1 else None
+        case Call("/", (left, right)):
+            divisor = _affine(right)
+            if divisor is None or len(divisor) > 1 or not divisor[None]:
+                return None
+            return _scaled(_affine(left), 1 / divisor[None])
+        case _:
+            return None
+
+
+def _scaled(a: _Affine | None, factor: Fraction) -> _Affine | None:
+    return None if a is None else _combine({None: Fraction(0)}, a, factor)
+
+
+def _affine_sum(terms: tuple[Expr, ...]) -> _Affine | None:
+    total: _Affine = {None: Fraction(0)}
+    for term in terms:
+        part = _affine(term)
+        if part is None:
+            return None
+        total = _combine(total, part, Fraction(1))
+    return total
