@@ -1,0 +1,5 @@
+"""``python -m nsode``."""
+
+from nsode.cli import main
+
+main()

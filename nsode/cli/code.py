@@ -1,0 +1,36 @@
+"""``nsode code``."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+
+import click
+
+from nsode.cli.terminal import bold, quiet, say
+from nsode.diagnostics import CODES
+
+
+@click.command()
+@click.argument("code", required=False)
+def command(code: str | None) -> None:
+    """Explain CODE, such as NS201, with an example; without it, list all codes."""
+    if code is None:
+        for known, title in CODES.items():
+            say(f"{bold(known)}  {title}")
+        return
+    say(_page(_known(code)).rstrip("\n"))
+
+
+def _known(code: str) -> str:
+    upper = code.upper()
+    full = upper if upper.startswith("NS") else f"NS{upper}"
+    if full not in CODES:
+        raise click.BadParameter(f"no code `{code}` (`nsode code` lists them)")
+    return full
+
+
+def _page(code: str) -> str:
+    page = files("nsode").joinpath("catalog", f"{code}.md")
+    if page.is_file():
+        return page.read_text(encoding="utf-8")
+    return f"{bold(code)}: {CODES[code]}\n\n{quiet('No more is written about it yet.')}"

@@ -1,0 +1,90 @@
+"""``nsode compile``."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, cast
+
+import click
+
+from nsode.backends import TARGETS, Options
+from nsode.cli.failure import USAGE, io_diagnostic
+from nsode.cli.model import load, summary
+from nsode.cli.terminal import bold, complain, quiet, say
+from nsode.files import write_all
+
+if TYPE_CHECKING:
+    from nsode.compiler import Model
+
+_PREFIX = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
+
+
+def _prefix(context: click.Context, parameter: click.Parameter, value: str | None) -> str | None:
+    """Accept a C identifier: it begins every name in the C, and the names of the files."""
+    if value is not None and not _PREFIX.fullmatch(value):
+        raise click.BadParameter("a letter, then up to 63 letters, digits and underscores")
+    return value
+
+
+@click.command()
+@click.argument("model")
+@click.option(
+    "-t", "--target", type=click.Choice(list(TARGETS)), default="c", show_default=True,
+    help="What to write.",
+)  # fmt: skip
+@click.option(
+    "-o", "--output", "folder", type=click.Path(path_type=Path), default=Path(),
+    help="The folder to write into, made if need be.  [default: here]",
+)  # fmt: skip
+@click.option(
+    "--real", type=click.Choice(["double", "float"]), default="double", show_default=True,
+    help="The numbers of the C.",
+)  # fmt: skip
+@click.option("--prefix", callback=_prefix, help="What names begin with.  [default: the model's]")
+def command(model: str, target: str, folder: Path, real: str, prefix: str | None) -> int:
+    """Write MODEL as code that integrates.
+
+    The C is plain C99 without allocation: copy it anywhere. Every file is written
+    whole, or none is.
+    """
+    loaded = load(model)
+    complain(loaded.diagnostics, loaded.ode.source)
+    options = Options(prefix=prefix, real=cast(Literal["double", "float"], real))
+    try:
+        paths = write_all(loaded.emit(target, options), folder)
+    except OSError as error:
+        complain([io_diagnostic("NS602", error)])
+        return USAGE
+    _show(loaded, target, paths)
+    return 0
+
+
+def _show(model: Model, target: str, paths: list[Path]) -> None:
+    say(f"{bold(model.ode.name)}: {summary(model)}")
+    width = max(len(str(path)) for path in paths)
+    for path in paths:
+        say(f"  {path!s:<{width}}  {_bytes(path.stat().st_size):>8}")
+    hint = _next(target, paths)
+    if hint is not None:
+        say(quiet(f"next: {hint}"))
+
+
+def _bytes(count: int) -> str:
+    for unit in ("B", "kB", "MB"):
+        if count < 1000:
+            return f"{count:.3g} {unit}"
+        count = count / 1000  # type: ignore[assignment]
+    return f"{count:.3g} GB"
+
+
+def _next(target: str, paths: list[Path]) -> str | None:
+    match target:
+        case "c":
+            source = next(path for path in paths if path.suffix == ".c")
+            return f"gcc -O2 -I {source.parent} main.c {source} -lm"
+        case "numpy":
+            module = next(path for path in paths if path.suffix == ".py")
+            return f"import {module.stem}"
+        case _:
+            return None

@@ -1,0 +1,77 @@
+"""``nsode doctor``."""
+
+from __future__ import annotations
+
+import platform
+import re
+import shutil
+import subprocess
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import click
+
+import nsode
+from nsode.cli.terminal import bold, quiet, say
+
+LIBRARIES = {
+    "lark": ("reads models", "pip install lark"),
+    "click": ("the command line", "pip install click"),
+    "numpy": ("arrays", "pip install numpy"),
+}
+OPTIONAL = {
+    "casadi": ("-t casadi, optimization, CVODES", "pip install 'nsode[casadi]'"),
+    "sympy": ("symbols to explore", "pip install 'nsode[sympy]'"),
+    "pint": ("checks units", "pip install 'nsode[units]'"),
+    "scipy": ("its integrators", "pip install scipy"),
+    "matplotlib": ("plots", "pip install 'nsode[plot]'"),
+}
+COMPILERS = {
+    "gcc": ("compiles the C to run it", "apt install gcc"),
+    "clang": ("the same", "apt install clang"),
+    "arm-none-eabi-gcc": ("the C for a Cortex-M", "apt install gcc-arm-none-eabi"),
+    "qemu-system-arm": ("tests that C", "apt install qemu-system-arm"),
+}
+
+
+@click.command()
+def command() -> None:
+    """Show what nsode finds on this machine, what for, and how to get the rest."""
+    say(f"nsode {nsode.__version__} in {Path(nsode.__file__).parent}")
+    say(f"python {platform.python_version()}, {platform.system()} {platform.machine()}")
+    _section("libraries", {name: _library(name) for name in LIBRARIES}, LIBRARIES)
+    _section("optional libraries", {name: _library(name) for name in OPTIONAL}, OPTIONAL)
+    _section("programs", {name: _program(name) for name in COMPILERS}, COMPILERS)
+    if not any(shutil.which(name) for name in ("cc", "gcc", "clang", "tcc")):
+        say("\nno C compiler: models still compile to C, but nsode cannot run them")
+
+
+def _section(title: str, found: dict[str, str | None], about: dict[str, tuple[str, str]]) -> None:
+    say(f"\n{bold(title)}")
+    for name, state in found.items():
+        purpose, way = about[name]
+        shown = "-" if state is None else state
+        line = f"  {name:<18} {shown:<10} {purpose}"
+        say(line if state is not None else f"{line}: {quiet(way)}")
+
+
+def _library(name: str) -> str | None:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
+
+
+def _program(name: str) -> str | None:
+    """Return the version that a program tells, None where it is not installed."""
+    path = shutil.which(name)
+    if path is None:
+        return None
+    try:
+        told = subprocess.run([path, "--version"], capture_output=True, text=True, timeout=10)
+    except (OSError, subprocess.TimeoutExpired):
+        return "broken"
+    first = told.stdout.partition("\n")[0]
+    # Debian writes its own version in parentheses before or behind the one that counts.
+    numbers = re.findall(r"\d+\.\d+(?:\.\d+)?", re.sub(r"\([^)]*\)", "", first))
+    return numbers[0] if numbers else "found"

@@ -1,0 +1,72 @@
+"""The MODEL argument that the commands share."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from nsode.files import read_source, read_stream
+from nsode.ode import SetValuedTerm, size
+from nsode.source import Source
+
+if TYPE_CHECKING:
+    from nsode.compiler import Model
+
+STANDARD_INPUT = "-"
+_SHOWN = 6
+
+
+def source_of(argument: str) -> Source:
+    """Read the model that an argument names.
+
+    Raises
+    ------
+    ModelError
+        If it cannot be read.
+    """
+    if argument == STANDARD_INPUT:
+        return read_stream(sys.stdin.buffer, "<stdin>")
+    return read_source(Path(argument))
+
+
+def load(argument: str) -> Model:
+    """Load the model that an argument names.
+
+    Raises
+    ------
+    ModelError
+        If it cannot be read or is refused.
+    """
+    from nsode import compiler
+
+    source = source_of(argument)
+    return compiler.loads(source.text, source.name)
+
+
+def summary(model: Model) -> str:
+    """Return how large the augmented ODE of a model is, on one line."""
+    ode, terms = model.ode, model.inclusion.terms
+    added = sum(map(size, ode.auxiliary))
+    own = sum(map(size, ode.states)) - added
+    auxiliary = f" + {added} auxiliary" if added else ""
+    return f"{_count(own, 'state')}{auxiliary}, {_terms(terms)}"
+
+
+def _terms(terms: tuple[SetValuedTerm, ...]) -> str:
+    count = sum(map(size, terms))
+    if not count:
+        return "no set-valued term"
+    shown = ", ".join(f"{_family(term)}: {term.kind}" for term in terms[:_SHOWN])
+    more = ", ..." if len(terms) > _SHOWN else ""
+    return f"{_count(count, 'set-valued term')} ({shown}{more})"
+
+
+def _family(term: SetValuedTerm) -> str:
+    if term.range is None:
+        return term.name
+    return f"{term.name}[{term.range.first}..{term.range.last}]"
+
+
+def _count(number: int, thing: str) -> str:
+    return f"{number:,} {thing}" + ("" if number == 1 else "s")
