@@ -1,68 +1,12 @@
-"""Models are read with care; files are written whole or not at all."""
+"""Files are written whole or not at all."""
 
 from __future__ import annotations
 
 import os
 import secrets
-import stat
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import BinaryIO
-
-from nsode.diagnostics import Diagnostic, Label, ModelError
-from nsode.source import Source, Span
-
-#: Bytes beyond which a model is not even read.
-LARGEST = 64 * 2**20
-
-
-def read_source(path: Path) -> Source:
-    """Read the text of a model from a regular file.
-
-    Raises
-    ------
-    ModelError
-        If the file cannot be read or is not a text.
-    """
-    try:
-        # Not blocking, so that a named pipe without a writer is refused instead of awaited.
-        with os.fdopen(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as file:
-            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-                raise ModelError([Diagnostic("NS601", f"`{path}` is not a regular file")])
-            return read_stream(file, str(path))
-    except (OSError, ValueError) as error:
-        cause = error.strerror if isinstance(error, OSError) else str(error)
-        reason = (cause or type(error).__name__).lower()
-        raise ModelError([Diagnostic("NS601", f"cannot read `{path}`: {reason}")]) from error
-
-
-def read_stream(stream: BinaryIO, name: str) -> Source:
-    """Read the text of a model from an open stream, to be shown under ``name``.
-
-    Raises
-    ------
-    ModelError
-        If it is too large or not UTF-8.
-    """
-    data = stream.read(LARGEST + 1)
-    if len(data) > LARGEST:
-        message = f"`{name}` is larger than {LARGEST // 2**20} MiB"
-        raise ModelError([Diagnostic("NS012", message)])
-    try:
-        return Source(name, data.decode("utf-8-sig"))
-    except UnicodeDecodeError as error:
-        raise _not_utf8(data, error, name) from error
-
-
-def _not_utf8(data: bytes, error: UnicodeDecodeError, name: str) -> ModelError:
-    source = Source(name, data.decode("utf-8", errors="replace"))
-    place = len(data[: error.start].decode("utf-8", errors="replace"))
-    label = Label(Span(place, place + 1), "no character begins with this byte")
-    message = f"not UTF-8 at byte {error.start + 1}"
-    return ModelError(
-        [Diagnostic("NS002", message, (label,), help="save the file as UTF-8")], source
-    )
 
 
 def write_all(files: Mapping[str, str], folder: Path) -> list[Path]:

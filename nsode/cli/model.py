@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nsode.files import read_source, read_stream
 from nsode.ode import SetValuedTerm, size
 from nsode.source import Source
+from nsode.syntax.limits import DEFAULT_LIMITS
+from nsode.syntax.reading import decode, read
 
 if TYPE_CHECKING:
     from nsode.compiler import Model
@@ -26,8 +26,8 @@ def source_of(argument: str) -> Source:
         If it cannot be read.
     """
     if argument == STANDARD_INPUT:
-        return read_stream(sys.stdin.buffer, "<stdin>")
-    return read_source(Path(argument))
+        return decode("<stdin>", sys.stdin.buffer.read(DEFAULT_LIMITS.size + 1))
+    return read(argument)
 
 
 def load(argument: str) -> Model:
