@@ -1,1 +1,9 @@
-"""nsode.syntax."""
+"""Stage 1: from the text of a model to its tree. The only place that knows lark."""
+
+from __future__ import annotations
+
+from nsode.syntax.limits import DEFAULT_LIMITS, Limits
+from nsode.syntax.parser import parse
+from nsode.syntax.reading import decode, read
+
+__all__ = ["DEFAULT_LIMITS", "Limits", "decode", "parse", "read"]

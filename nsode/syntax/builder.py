@@ -1,0 +1,279 @@
+"""What each rule of the grammar becomes: the methods are named like the rules."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lark import Token, Transformer, v_args
+
+from nsode.diagnostics import Diagnostic, Label, ModelError
+from nsode.expr import Call, Expr, If, Name, Number
+from nsode.source import NOWHERE, Span
+from nsode.syntax import ast
+from nsode.syntax.words import FILE_KEYWORDS, RESERVED
+
+
+def _span(token: Token) -> Span:
+    return Span(token.start_pos, token.end_pos)  # type: ignore[arg-type]
+
+
+def _from_to(first: Token | Expr, last: Token | Expr) -> Span:
+    start = first.start_pos if isinstance(first, Token) else first.span.start
+    end = last.end_pos if isinstance(last, Token) else last.span.end
+    return Span(start, end)  # type: ignore[arg-type]
+
+
+def _identifier(token: Token) -> ast.Identifier:
+    return ast.Identifier(str(token), span=_span(token))
+
+
+def _declared(token: Token) -> ast.Identifier:
+    if token in RESERVED:
+        kind = "kept free" if token in FILE_KEYWORDS else "a keyword"
+        raise ModelError(
+            [
+                Diagnostic(
+                    "NS103",
+                    f"`{token}` is {kind} and cannot be declared",
+                    (Label(_span(token), "choose another name"),),
+                    help=f"for instance `{token}_` or `{token}1`",
+                )
+            ]
+        )
+    return _identifier(token)
+
+
+def _unit(token: Token | None) -> ast.Unit | None:
+    return None if token is None else ast.Unit(token[1:-1].strip(), span=_span(token))
+
+
+def _binary(function: str, left: Expr, right: Expr) -> Call:
+    return Call(function, (left, right), span=Span(left.span.start, right.span.end))
+
+
+@v_args(inline=True)
+class Builder(Transformer[Token, Any]):
+    """Builds the tree of one statement; ``statement`` is set to its span beforehand."""
+
+    statement: Span = NOWHERE
+
+    # declarations
+
+    def model(self, name: Token) -> ast.Identifier:
+        return _declared(name)
+
+    def parameter(
+        self, declarator: ast.Declarator, value: Expr, unit: Token | None, *bounds: ast.Bound
+    ) -> ast.ParameterDeclaration:
+        return ast.ParameterDeclaration(
+            declarator, value, _unit(unit), bounds, span=self.statement
+        )
+
+    def constant(self, name: Token, value: Expr) -> ast.ConstantDeclaration:
+        return ast.ConstantDeclaration(_declared(name), value, span=self.statement)
+
+    def input(
+        self,
+        declarator: ast.Declarator,
+        default: Expr | None,
+        unit: Token | None,
+        *bounds: ast.Bound,
+    ) -> ast.InputDeclaration:
+        return ast.InputDeclaration(declarator, default, _unit(unit), bounds, span=self.statement)
+
+    def state(
+        self, declarator: ast.Declarator, initial: Expr, unit: Token | None
+    ) -> ast.StateDeclaration:
+        return ast.StateDeclaration(declarator, initial, _unit(unit), span=self.statement)
+
+    def let(
+        self, declarator: ast.Declarator, value: Expr, unit: Token | None
+    ) -> ast.LetDeclaration:
+        return ast.LetDeclaration(declarator, value, _unit(unit), span=self.statement)
+
+    def force(
+        self, declarator: ast.Declarator, value: Expr, unit: Token | None
+    ) -> ast.ForceDeclaration:
+        return ast.ForceDeclaration(declarator, value, _unit(unit), span=self.statement)
+
+    def output(
+        self, declarator: ast.Declarator, value: Expr, unit: Token | None
+    ) -> ast.OutputDeclaration:
+        return ast.OutputDeclaration(declarator, value, _unit(unit), span=self.statement)
+
+    def assume(self, condition: Expr) -> ast.Assumption:
+        return ast.Assumption(condition, span=self.statement)
+
+    def declarator(self, name: Token, *subscripts: ast.RangeSyntax | Expr) -> ast.Declarator:
+        range_ = None
+        if subscripts and isinstance(subscripts[0], ast.RangeSyntax):
+            range_, *subscripts = subscripts  # type: ignore[assignment]
+        end = subscripts[-1].span.end + 1 if subscripts else name.end_pos
+        return ast.Declarator(
+            _declared(name),
+            range_,
+            tuple(subscripts),  # type: ignore[arg-type]
+            span=Span(name.start_pos, end),  # type: ignore[arg-type]
+        )
+
+    def family(self, range_: ast.RangeSyntax) -> ast.RangeSyntax:
+        return range_
+
+    def size(self, size: Expr) -> Expr:
+        return size
+
+    def range(self, variable: Token, first: Expr, last: Expr) -> ast.RangeSyntax:
+        return ast.RangeSyntax(
+            _declared(variable),
+            first,
+            last,
+            span=Span(variable.start_pos, last.span.end),  # type: ignore[arg-type]
+        )
+
+    def bound(self, relation: Token, value: Expr) -> ast.Bound:
+        return ast.Bound(str(relation), value, span=_from_to(relation, value))
+
+    # equations
+
+    def equation(self, left: Expr, right: Expr) -> ast.Equation:
+        return ast.Equation(left, right, None, span=self.statement)
+
+    def family_equation(self, range_: ast.RangeSyntax, equation: ast.Equation) -> ast.Equation:
+        return ast.Equation(equation.left, equation.right, range_, span=self.statement)
+
+    # approximation and run
+
+    def approximate(
+        self,
+        target: tuple[ast.Identifier, ...] | str,
+        law: ast.Identifier | None,
+        settings: tuple[ast.Setting | None, ...] | None,
+    ) -> ast.ApproximateStatement:
+        settings = settings or ()
+        return ast.ApproximateStatement(
+            () if isinstance(target, str) else target,
+            target if isinstance(target, str) else None,
+            law,
+            tuple(s for s in settings if s is not None),
+            None in settings,
+            span=self.statement,
+        )
+
+    def elements(self, *names: Token) -> tuple[ast.Identifier, ...]:
+        return tuple(map(_identifier, names))
+
+    def default(self, kind: Token) -> str:
+        if kind not in ("dio", "sgn"):
+            raise ModelError(
+                [
+                    Diagnostic(
+                        "NS001",
+                        f"`{kind}` is no kind of set-valued term",
+                        (Label(_span(kind), "expected `dio` or `sgn`"),),
+                    )
+                ]
+            )
+        return str(kind)
+
+    def law(self, name: Token) -> ast.Identifier:
+        return _identifier(name)
+
+    def settings(self, *settings: ast.Setting | None) -> tuple[ast.Setting | None, ...]:
+        return settings
+
+    def setting(self, name: Token, value: Expr, unit: Token | None) -> ast.Setting:
+        end = value.span.end if unit is None else unit.end_pos
+        return ast.Setting(
+            _identifier(name),
+            value,
+            _unit(unit),
+            span=Span(name.start_pos, end),  # type: ignore[arg-type]
+        )
+
+    def equilibrium(self) -> None:
+        return None
+
+    def simulate(self, *settings: ast.Setting) -> ast.SimulateStatement:
+        return ast.SimulateStatement(settings, span=self.statement)
+
+    def duration(self, value: Expr, unit: Token | None) -> ast.Setting:
+        end = value.span.end if unit is None else unit.end_pos
+        span = Span(value.span.start, end)  # type: ignore[arg-type]
+        return ast.Setting(
+            ast.Identifier("duration", span=value.span), value, _unit(unit), span=span
+        )
+
+    def time_option(self, word: Token, value: Expr, unit: Token | None) -> ast.Setting:
+        return self.setting(word, value, unit)
+
+    def method(self, word: Token, name: Token) -> ast.Setting:
+        return ast.Setting(
+            _identifier(word), _identifier(name), None, span=_from_to(word, name)
+        )
+
+    # expressions
+
+    def conditional(self, if_: Token, condition: Expr, then: Expr, otherwise: Expr) -> If:
+        return If(condition, then, otherwise, span=_from_to(if_, otherwise))
+
+    def or_(self, left: Expr, right: Expr) -> Call:
+        return _binary("or", left, right)
+
+    def and_(self, left: Expr, right: Expr) -> Call:
+        return _binary("and", left, right)
+
+    def not_(self, word: Token, operand: Expr) -> Call:
+        return Call("not", (operand,), span=_from_to(word, operand))
+
+    def compare(self, left: Expr, relation: Token, right: Expr) -> Call:
+        return _binary(str(relation), left, right)
+
+    def addition(self, *terms: Expr) -> Call:
+        return Call("+", terms, span=Span(terms[0].span.start, terms[-1].span.end))
+
+    def plus(self, term: Expr) -> Expr:
+        return term
+
+    def negative(self, sign: Token, operand: Expr) -> Call:
+        return Call("neg", (operand,), span=_from_to(sign, operand))
+
+    minus = negative
+
+    def multiply(self, left: Expr, right: Expr) -> Call:
+        return _binary("*", left, right)
+
+    def divide(self, left: Expr, right: Expr) -> Call:
+        return _binary("/", left, right)
+
+    def power_(self, base: Expr, exponent: Expr) -> Call:
+        return _binary("^", base, exponent)
+
+    def number(self, literal: Token) -> Number:
+        return Number(float(literal), span=_span(literal))
+
+    def name(self, name: Token) -> Name:
+        return Name(str(name), span=_span(name))
+
+    def call(self, function: Token, *rest: Any) -> Call:
+        *args, end = rest
+        return Call(
+            str(function),
+            tuple(arg for arg in args if arg is not None),
+            span=_from_to(function, end),
+        )
+
+    def reduction(self, word: Token, range_: ast.RangeSyntax, body: Expr, end: Token) -> Expr:
+        return ast.Reduction(range_, body, span=_from_to(word, end))
+
+    def group(self, start: Token, inner: Expr, end: Token) -> ast.Group:
+        return ast.Group(inner, span=_from_to(start, end))
+
+    def bracket(self, start: Token, *rest: Any) -> ast.Bracket:
+        *items, end = rest
+        return ast.Bracket(tuple(items), span=_from_to(start, end))
+
+    def subscript(self, base: Expr, index: Expr, end: Token) -> ast.Subscript:
+        return ast.Subscript(base, index, span=_from_to(base, end))
+
+    def component(self, base: Expr, field: Token) -> ast.Component:
+        return ast.Component(base, str(field), span=_from_to(base, field))
