@@ -1,0 +1,310 @@
+"""From expressions as written to scalar expressions: names, shapes, components, indices."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import reduce
+
+from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
+from nsode.expr import FUNCTIONS, TIME, Call, Expr, If, Index, Name, Number, Sum, negate
+from nsode.inclusion import values
+from nsode.inclusion.indices import index, index_range
+from nsode.inclusion.symbols import CALLABLE, Scope, Symbol, known_functions
+from nsode.inclusion.values import (
+    Shape,
+    ShapeError,
+    Value,
+    describe,
+    each,
+    from_scalars,
+    scalars,
+    shape,
+    suffixes,
+)
+from nsode.syntax.ast import Bracket, Component, Group, Reduction, Subscript
+
+_FIELDS = {"x": 1, "y": 2, "z": 3}
+#: The constants of an element that initial values and settings may read.
+CONSTANTS = ("K", "alpha", "beta")
+
+
+def elaborate(expr: Expr, scope: Scope) -> Value:
+    """Return the value that an expression of the model stands for.
+
+    Raises
+    ------
+    ModelError
+        For unknown names and functions, wrong shapes, subscripts and arguments.
+    """
+    match expr:
+        case Number():
+            return expr
+        case Name():
+            return _name(expr, scope)
+        case Group(inner):
+            return elaborate(inner, scope)
+        case Bracket(items):
+            return _bracket(expr, items, scope)
+        case Subscript():
+            return _subscript(expr, scope)
+        case Component():
+            return _component(expr, scope)
+        case If():
+            return _if(expr, scope)
+        case Reduction():
+            return _reduction(expr, scope)
+        case Call():
+            return _call(expr, scope)
+    raise NotImplementedError(f"no rule to elaborate {type(expr).__name__}")
+
+
+def scalar(expr: Expr, scope: Scope, what: str) -> Expr:
+    """Return the value of an expression that must be a scalar number.
+
+    Raises
+    ------
+    ModelError
+        NS105 or NS117 if it is not.
+    """
+    value = elaborate(expr, scope)
+    if not isinstance(value, Expr):
+        raise refuse("NS105", f"{what} must be a scalar", expr.span, f"this is {describe(shape(value))}")
+    return number(value, what)
+
+
+def number(value: Expr, what: str = "this") -> Expr:
+    """Refuse a condition where a number is wanted.
+
+    Raises
+    ------
+    ModelError
+        NS117.
+    """
+    if is_condition(value):
+        raise refuse(
+            "NS117",
+            f"{what} must be a number",
+            value.span,
+            "this is true or false",
+            help="write `if ... then 1 else 0`",
+        )
+    return value
+
+
+def condition(expr: Expr, scope: Scope) -> Expr:
+    """Return the value of an expression that must be true or false.
+
+    Raises
+    ------
+    ModelError
+        NS117 if it is not.
+    """
+    value = elaborate(expr, scope)
+    if not isinstance(value, Expr) or not is_condition(value):
+        raise refuse(
+            "NS117",
+            "a condition must be true or false",
+            expr.span,
+            "this is a number" if isinstance(value, Expr) else f"this is {describe(shape(value))}",
+            help="compare it, for example `... > 0`",
+        )
+    return value
+
+
+def is_condition(expr: Expr) -> bool:
+    """Tell whether an expression is true or false rather than a number."""
+    return isinstance(expr, Call) and FUNCTIONS[expr.function].boolean
+
+
+def components(name: str, of: Shape, at: Index | None, span_of: Expr) -> Value:
+    """Return the value of a name of some shape: one :class:`Name` for each component."""
+    names = tuple(Name(name + suffix, at, span=span_of.span) for suffix in suffixes(of))
+    return from_scalars(names, of)
+
+
+def _name(expr: Name, scope: Scope) -> Value:
+    if expr.id == TIME:
+        return expr
+    if expr.id == "pi":
+        return Number(math.pi, span=expr.span)
+    if expr.id in scope.indices:
+        return Index(expr.id, 0, span=expr.span)
+    symbol = scope.symbols.find(expr.id, expr.span, also=scope.indices)
+    if symbol.range is not None:
+        raise refuse(
+            "NS105",
+            f"`{expr.id}` is a family",
+            expr.span,
+            "which element is meant?",
+            help=f"write `{expr.id}[{symbol.range.variable}]` inside "
+            f"`for {symbol.range.variable} in ...` or `sum(...)`",
+        )
+    return _value(symbol, None, expr)
+
+
+def _value(symbol: Symbol, at: Index | None, expr: Expr) -> Value:
+    if symbol.value is not None:
+        return each(lambda part: replace(part, span=expr.span), symbol.value)
+    return components(symbol.name, symbol.shape, at, expr)
+
+
+def _bracket(expr: Expr, items: tuple[Expr, ...], scope: Scope) -> Value:
+    found = [elaborate(item, scope) for item in items]
+    if not found:
+        raise refuse("NS105", "an empty bracket has no value", expr.span)
+    if all(isinstance(item, Bracket) for item in items):
+        if len({shape(value) for value in found}) > 1:
+            raise refuse("NS105", "the rows of a matrix must have one length", expr.span)
+        return tuple(found)
+    for item, value in zip(items, found, strict=True):
+        if len(shape(value)) > 1:
+            raise refuse("NS105", "a matrix cannot stand in a vector", item.span)
+    return tuple(number(part, "a component") for value in found for part in scalars(value))
+
+
+def _subscript(expr: Subscript, scope: Scope) -> Value:
+    if isinstance(expr.base, Name) and expr.base.id not in scope.indices and (
+        expr.base.id not in {TIME, "pi"}
+    ):
+        symbol = scope.symbols.find(expr.base.id, expr.base.span, also=scope.indices)
+        if symbol.range is not None:
+            return _value(symbol, index(expr.index, scope), expr)
+    base = elaborate(expr.base, scope)
+    at = index(expr.index, scope)
+    if at.variable is not None:
+        raise refuse(
+            "NS109",
+            "an index of a family cannot choose a component of a vector",
+            expr.index.span,
+            help="declare a family: `state x[i in 1..3] = ...`",
+        )
+    return _pick(base, at.offset, expr)
+
+
+def _pick(base: Value, k: int, expr: Expr) -> Value:
+    if isinstance(base, Expr):
+        raise refuse("NS105", "a scalar has no components", expr.span)
+    if not 1 <= k <= len(base):
+        raise refuse(
+            "NS109",
+            f"there is no component {k}",
+            expr.span,
+            f"this is {describe(shape(base))}, counted from 1",
+        )
+    return base[k - 1]
+
+
+def _component(expr: Component, scope: Scope) -> Value:
+    if isinstance(expr.base, Name) and expr.field in CONSTANTS:
+        symbol = scope.symbols.find(expr.base.id, expr.base.span, also=scope.indices)
+        if symbol.kind == "force" and scope.constants:
+            return Name(f"{expr.base.id}.{expr.field}", span=expr.span)
+    base = elaborate(expr.base, scope)
+    k = _FIELDS.get(expr.field)
+    if k is None or isinstance(base, Expr) or len(shape(base)) != 1 or not k <= len(base) <= 3:
+        what = describe(shape(base))
+        help = "a vector of 2 or 3 has `.x .y .z`"
+        if isinstance(base, tuple) and len(base) > 3:
+            help = "write `[1]` to `[" + str(len(base)) + "]`; quaternions have the scalar first"
+        raise refuse("NS105", f"there is no component `.{expr.field}`", expr.span, f"this is {what}", help=help)
+    return base[k - 1]
+
+
+def _if(expr: If, scope: Scope) -> Value:
+    test = condition(expr.condition, scope)
+    then, otherwise = elaborate(expr.then, scope), elaborate(expr.otherwise, scope)
+    if shape(then) != shape(otherwise):
+        raise refuse(
+            "NS105",
+            "both branches of an `if` must have one shape",
+            expr.otherwise.span,
+            f"{describe(shape(otherwise))}, but the first branch is {describe(shape(then))}",
+        )
+    pairs = zip(scalars(then), scalars(otherwise), strict=True)
+    return from_scalars(
+        tuple(If(test, number(a), number(b), span=expr.span) for a, b in pairs), shape(then)
+    )
+
+
+def _reduction(expr: Reduction, scope: Scope) -> Value:
+    over = index_range(expr.range, scope)
+    assert over is not None
+    body = elaborate(expr.body, scope.with_index(over))
+    return each(lambda part: Sum(over, number(part), span=expr.span), body)
+
+
+def _call(expr: Call, scope: Scope) -> Value:
+    if expr.function not in FUNCTIONS and expr.function not in CALLABLE:
+        raise ModelError([
+            Diagnostic(
+                "NS104",
+                f"there is no function `{expr.function}`",
+                (Label(expr.span, "unknown function"),),
+                notes=("the functions are " + ", ".join(known_functions()),),
+                help=suggest(expr.function, CALLABLE),
+            )
+        ])
+    if expr.function == "der":
+        return scope.derivative(expr, scope)
+    args = tuple(elaborate(arg, scope) for arg in expr.args)
+    try:
+        return _apply(expr, args)
+    except ShapeError as error:
+        raise refuse("NS105", str(error), expr.span) from None
+
+
+def _apply(expr: Call, args: tuple[Value, ...]) -> Value:
+    match expr.function, args:
+        case "+", _:
+            result = values.plus(tuple(each(number, arg) for arg in args))
+            return replace(result, span=expr.span) if isinstance(result, Expr) else result
+        case "neg", (inner,):
+            return each(lambda part: replace(negate(number(part)), span=expr.span), inner)
+        case "*", (left, right):
+            result = values.times(each(number, left), each(number, right))
+            return replace(result, span=expr.span) if isinstance(result, Expr) else result
+        case "/", (left, Expr() as right):
+            return each(
+                lambda part: part
+                if values.is_zero(part) and not isinstance(left, Expr)
+                else Call("/", (number(part), number(right)), span=expr.span),
+                left,
+            )
+        case "/", _:
+            raise ShapeError("only a scalar can divide")
+        case "dot", (left, right):
+            return values.dot(left, right)
+        case "cross", (left, right):
+            return values.cross(left, right)
+        case "qmul", (left, right):
+            return values.qmul(left, right)
+        case "transpose", (inner,):
+            return values.transpose(inner)
+        case "norm", (inner,):
+            return values.norm(inner)
+    return _scalar_function(expr, args)
+
+
+def _scalar_function(expr: Call, args: tuple[Value, ...]) -> Expr:
+    name = expr.function
+    wanted = {"dot": 2, "cross": 2, "qmul": 2, "transpose": 1, "norm": 1}.get(
+        name, FUNCTIONS[name].arity if name in FUNCTIONS else 1
+    )
+    chained = name in {"min", "max"} and len(args) >= 2
+    if wanted is not None and len(args) != wanted and not chained:
+        plural = "argument" if wanted == 1 else "arguments"
+        raise refuse("NS110", f"`{name}` takes {wanted} {plural}", expr.span, f"here it has {len(args)}")
+    flat: list[Expr] = []
+    for arg, written in zip(args, expr.args, strict=True):
+        if not isinstance(arg, Expr):
+            raise refuse("NS105", f"`{name}` takes scalars", written.span, f"this is {describe(shape(arg))}")
+        if name in {"and", "or", "not"}:
+            if not is_condition(arg):
+                raise refuse("NS117", f"`{name}` takes conditions", written.span, "this is a number")
+        else:
+            number(arg, f"an argument of `{name}`")
+        flat.append(arg)
+    if chained:
+        return reduce(lambda a, b: Call(name, (a, b), span=expr.span), flat)
+    return Call(name, tuple(flat), span=expr.span)

@@ -1,0 +1,116 @@
+"""What arithmetic alone can refuse: undefined constants, huge exponents, growth."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from nsode.diagnostics import refuse
+from nsode.evaluate import apply
+from nsode.expr import Call, Expr, Number, children
+from nsode.inclusion.values import Value, scalars
+
+#: The largest exponent that a number may have.
+EXPONENT_LIMIT = 64
+#: Operations in one expression after its vectors are written out.
+SIZE_LIMIT = 50_000
+
+
+class _Seen(NamedTuple):
+    size: int
+    constant: float | None
+    coefficient: float
+
+
+@dataclass(slots=True)
+class Review:
+    """Looks at each expression once, however often it is shared."""
+
+    _seen: dict[int, _Seen] = field(default_factory=dict)
+    _kept: list[Value] = field(default_factory=list)
+
+    def check(self, value: Value) -> None:
+        """Refuse what cannot be computed.
+
+        Raises
+        ------
+        ModelError
+            NS013 for a huge exponent, NS116 for a constant that is infinite or no
+            number, NS011 for an expression that grows too large.
+        """
+        self._kept.append(value)
+        size = 0
+        for component in scalars(value):
+            size += self._look(component).size
+            if size > SIZE_LIMIT:
+                raise refuse(
+                    "NS011",
+                    f"this grows to more than {SIZE_LIMIT} operations when its vectors are written out",
+                    component.span,
+                    help="name intermediate results with `let`",
+                )
+
+    def _look(self, expr: Expr) -> _Seen:
+        found = self._seen.get(id(expr))
+        if found is None:
+            parts = [self._look(child) for child in children(expr)]
+            found = self._seen[id(expr)] = self._combine(expr, parts)
+        return found
+
+    def _combine(self, expr: Expr, parts: list[_Seen]) -> _Seen:
+        size = 1 + sum(part.size for part in parts)
+        if isinstance(expr, Number):
+            return _Seen(1, expr.value, expr.value)
+        if not isinstance(expr, Call):
+            return _Seen(size, None, 1.0)
+        constants = [part.constant for part in parts]
+        if expr.function == "^":
+            _check_exponent(expr, constants[1])
+        known = [constant for constant in constants if constant is not None]
+        if len(known) == len(constants):
+            value = apply(expr.function, *known)
+            if not math.isfinite(value):
+                raise refuse(
+                    "NS116",
+                    f"this constant is {_words(value)}",
+                    expr.span,
+                    help="check the numbers that go into it",
+                )
+            return _Seen(size, value, value)
+        return _Seen(size, None, _coefficient(expr, parts))
+
+
+def _check_exponent(expr: Call, exponent: float | None) -> None:
+    if exponent is not None and abs(exponent) > EXPONENT_LIMIT:
+        raise refuse(
+            "NS013",
+            f"the exponent {exponent:g} is larger than {EXPONENT_LIMIT}",
+            expr.args[1].span,
+            "too large",
+            help="scale the quantity, or write `exp(a*log(b))`",
+        )
+
+
+def _coefficient(expr: Call, parts: list[_Seen]) -> float:
+    match expr.function:
+        case "*":
+            value = parts[0].coefficient * parts[1].coefficient
+        case "/":
+            value = apply("/", parts[0].coefficient, parts[1].coefficient)
+        case "neg":
+            return parts[0].coefficient
+        case _:
+            return 1.0
+    if math.isinf(value):
+        raise refuse(
+            "NS116",
+            "the numbers in this product multiply to infinity",
+            expr.span,
+            help="the largest number is 1.8e308: choose other units",
+        )
+    return value
+
+
+def _words(value: float) -> str:
+    return "not a number" if math.isnan(value) else "infinite"
