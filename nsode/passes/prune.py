@@ -1,0 +1,129 @@
+"""Only what was asked for: bindings, outputs and states that nothing kept reads go."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from itertools import chain
+
+from nsode.expr import Expr, names
+from nsode.ode import AugmentedODE, Binding, Check, Definition, LinearSolve, Placed
+
+
+def reads(*exprs: Expr) -> set[str]:
+    """Return every name that some expressions read, families by their one name."""
+    return {name.id for expr in exprs for name in names(expr)}
+
+
+def defines(item: Definition) -> tuple[str, ...]:
+    """Return the names that an item among the bindings defines."""
+    match item:
+        case Binding(name=name):
+            return (name,)
+        case LinearSolve(unknowns=unknowns):
+            return unknowns
+        case _:
+            raise NotImplementedError(f"no single value comes from {type(item).__name__}")
+
+
+def expressions(item: Definition) -> Iterable[Expr]:
+    """Yield the expressions that an item among the bindings reads."""
+    match item:
+        case Binding(value=value):
+            yield value
+        case LinearSolve(matrix=matrix, right=right):
+            yield from chain.from_iterable(matrix)
+            yield from right
+        case _:
+            raise NotImplementedError(f"no single value comes from {type(item).__name__}")
+
+
+def needed(bindings: Sequence[Definition], wanted: set[str]) -> tuple[Definition, ...]:
+    """Return the bindings that the wanted names rest on, in order.
+
+    ``wanted`` grows by what these bindings read.
+    """
+    kept = []
+    for item in reversed(bindings):
+        if not wanted.isdisjoint(defines(item)):
+            wanted |= reads(*expressions(item))
+            kept.append(item)
+    return tuple(reversed(kept))
+
+
+def prune(ode: AugmentedODE, outputs: Iterable[str] | None = None) -> AugmentedODE:
+    """Drop bindings that nothing reads and, if outputs are named, what they do not need.
+
+    Parameters
+    ----------
+    ode
+        What to reduce. Parameters and inputs all stay, so that ``p`` and ``u`` keep their
+        layout; so do the values of everything that stays.
+    outputs
+        Names of outputs and states, a vector by its one name. Every state goes, auxiliary
+        ones included, on which none of them depends. None keeps all states and outputs.
+
+    Raises
+    ------
+    ValueError
+        If a name is neither a state nor an output.
+    """
+    if outputs is not None:
+        ode = _restrict(ode, tuple(outputs))
+    wanted = reads(
+        *(rate.value for rate in ode.rates),
+        *(output.value for output in ode.outputs),
+        *(check.condition for check in ode.checks),
+        *(state.initial for state in ode.states),
+    )
+    return replace(ode, bindings=needed(ode.bindings, wanted))
+
+
+def _restrict(ode: AugmentedODE, asked: tuple[str, ...]) -> AugmentedODE:
+    for name in asked:
+        placed: tuple[Placed, ...] = (*ode.states, *ode.outputs)
+        if not any(_selects(name, item) for item in placed):
+            raise ValueError(f"`{name}` is neither a state nor an output")
+    outputs = tuple(y for y in ode.outputs if any(_selects(name, y) for name in asked))
+    graph = _dependencies(ode)
+    wanted = reads(*(y.value for y in outputs))
+    wanted |= {x.name for x in ode.states if any(_selects(name, x) for name in asked)}
+    kept = _reach(graph, wanted)
+    dropped = {x.name for x in ode.states} - kept
+    return replace(
+        ode,
+        states=tuple(x for x in ode.states if x.name in kept),
+        rates=tuple(r for r in ode.rates if r.state in kept),
+        outputs=outputs,
+        checks=tuple(c for c in ode.checks if not _reach(graph, reads(c.condition)) & dropped),
+        auxiliary=tuple(a for a in ode.auxiliary if a.name in kept),
+    )
+
+
+def _selects(asked: str, item: Placed) -> bool:
+    return item.name == asked or item.name.startswith(asked + ".")
+
+
+def _dependencies(ode: AugmentedODE) -> dict[str, set[str]]:
+    """Return what each binding reads, and each state for its rate and its start."""
+    graph: dict[str, set[str]] = {}
+    for item in ode.bindings:
+        behind = reads(*expressions(item))
+        for name in defines(item):
+            graph.setdefault(name, set()).update(behind)
+    for state in ode.states:
+        graph[state.name] = reads(state.initial)
+    for rate in ode.rates:
+        graph[rate.state] |= reads(rate.value)
+    return graph
+
+
+def _reach(graph: Mapping[str, set[str]], start: set[str]) -> set[str]:
+    """Return ``start`` and every name that it rests on."""
+    found = set(start)
+    front = list(start)
+    while front:
+        new = graph.get(front.pop(), set()) - found
+        found |= new
+        front.extend(new)
+    return found
