@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import chain
 
 from nsode.expr import Expr, names
-from nsode.ode import AugmentedODE, Binding, Check, Definition, LinearSolve, Placed
+from nsode.ode import AugmentedODE, Binding, Definition, LinearSolve, Placed
 
 
 def reads(*exprs: Expr) -> set[str]:
