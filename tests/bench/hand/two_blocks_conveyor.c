@@ -14,7 +14,12 @@ struct scene {
 
 static struct scene prepare(const double *p)
 {
-    struct scene s = { 1 / p[0], 1 / p[1], p[2], p[6], p[7], { { 0 } }, { { 0 } } };
+    struct scene s;
+    s.inv_M1 = 1 / p[0];
+    s.inv_M2 = 1 / p[1];
+    s.Ks = p[2];
+    s.u = p[6];
+    s.g = p[7];
     for (int i = 0; i < 3; i++) {
         const double *c = p + 8 + 3 * i, *f = p + 17 + 2 * i;
         s.n[i] = (struct contact){ c[0], c[1] / c[2], 1 / c[1], 1 / c[2] };

@@ -1,0 +1,50 @@
+"""Clocks, medians and tables."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import time
+from collections.abc import Callable, Sequence
+from statistics import median
+
+
+def seconds(action: Callable[[], object], rounds: int) -> float:
+    """Return the median time of an action."""
+    taken = []
+    for _ in range(rounds):
+        begin = time.perf_counter()
+        action()
+        taken.append(time.perf_counter() - begin)
+    return median(taken)
+
+
+def interleaved(commands: dict[str, Sequence[str]], rounds: int) -> dict[str, float]:
+    """Return the median time of each command; the commands take turns."""
+    taken: dict[str, list[float]] = {name: [] for name in commands}
+    for _ in range(rounds):
+        for name, command in commands.items():
+            begin = time.perf_counter()
+            subprocess.run(command, check=True, capture_output=True)
+            taken[name].append(time.perf_counter() - begin)
+    return {name: median(values) for name, values in taken.items()}
+
+
+def exponent(sizes: Sequence[float], times: Sequence[float]) -> float:
+    """Return b of the least squares fit times = a sizes^b."""
+    x, y = [math.log(s) for s in sizes], [math.log(t) for t in times]
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    covariance = sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y, strict=True))
+    return covariance / sum((a - mean_x) ** 2 for a in x)
+
+
+def table(title: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Print a table; the first column is text, the others are numbers."""
+    widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head))]
+    print(f"\n{title}")
+    for row in [head, *rows]:
+        first, *others = (
+            f"{cell:<{w}}" if i == 0 else f"{cell:>{w}}"
+            for i, (cell, w) in enumerate(zip(row, widths, strict=True))
+        )
+        print("  " + "   ".join([first, *others]))
