@@ -31,7 +31,8 @@ def evaluate(expr: Expr, lookup: Lookup, indices: Mapping[str, int] | None = Non
         case If(condition, then, otherwise):
             chosen = then if evaluate(condition, lookup, at) else otherwise
             return evaluate(chosen, lookup, at)
-        case Sum((variable, first, last), body):
+        case Sum(over, body):  # no pattern on the range: its length is not that of a tuple
+            variable, first, last = over
             total = 0.0
             for k in range(first, last + 1):
                 total += evaluate(body, lookup, {**at, variable: k})

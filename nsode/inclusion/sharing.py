@@ -75,7 +75,8 @@ class Numbering:
                 parts = (condition, then, otherwise)
                 numbers = tuple(self.number(part, indices) for part in parts)
                 return Scaled(1.0, self._of(("if", numbers)))
-            case Sum((variable, first, last), body):
+            case Sum(over, body):
+                variable, first, last = over
                 inside = {**indices, variable: ("sum", 0)}
                 number = self.number(body, inside)
                 return Scaled(1.0, self._of(("sum", first, last, number)))
