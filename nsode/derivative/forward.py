@@ -1,0 +1,211 @@
+"""Derivatives in one direction: by one name, or along the motion of a system."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+
+from nsode.derivative.rules import ONE, ZERO, guarded, partials, shifted, summed, times
+from nsode.expr import (
+    TIME,
+    Call,
+    Expr,
+    If,
+    Index,
+    IndexRange,
+    Name,
+    Number,
+    add,
+    multiply,
+    names,
+    negate,
+)
+from nsode.ode import Binding, Definition, LinearSolve, Rate, SetValuedTerm, System
+
+Direction = Callable[[Name], Expr | None]
+
+
+def tangent(expr: Expr, direction: Direction, taken: frozenset[str] = frozenset()) -> Expr | None:
+    """Return the derivative of ``expr`` in a direction, None where it is zero.
+
+    Parameters
+    ----------
+    expr : Expr
+        A scalar expression.
+    direction : callable
+        The derivative of each name that ``expr`` reads; None for one that is constant.
+    taken : frozenset of str
+        Index variables in use outside ``expr``.
+    """
+    terms = []
+    for partial in partials(expr, taken):
+        inner = direction(partial.name)
+        if inner is not None:
+            term = guarded(partial.where, times(partial.coefficient, inner))
+            terms.append(summed(partial.over, term))
+    return add(*terms) if terms else None
+
+
+def derivative(expr: Expr, by: str, at: Index | None = None) -> Expr:
+    """Return the partial derivative of ``expr`` by one name, or one element of a family.
+
+    Elements are told apart by how they are written: ``x[i]`` is not ``x[i+1]``.
+    """
+
+    def direction(name: Name) -> Expr | None:
+        return ONE if name.id == by and name.at == at else None
+
+    return tangent(expr, direction) or ZERO
+
+
+def time_derivative(
+    system: System, expr: Expr, within: IndexRange | None = None
+) -> tuple[tuple[Definition, ...], Expr]:
+    """Return d(expr)/dt along the rates of ``system`` (a Lie derivative).
+
+    Inputs and parameters are constant in time. The derivative of a name ``x`` that is
+    no plain value stands in a new definition ``x.dot``.
+
+    Parameters
+    ----------
+    system : System
+        The system whose rates move the states.
+    expr : Expr
+        What to derive; it may read states, bindings and time.
+    within : IndexRange, optional
+        The range of the family that ``expr`` belongs to.
+
+    Returns
+    -------
+    definitions : tuple of Definition
+        To be appended to the bindings of the system, in order.
+    value : Expr
+        The derivative in terms of them.
+
+    Raises
+    ------
+    ValueError
+        If ``expr`` reads a multiplier, whose derivative no equation gives.
+    """
+    motion = _Motion.of(system)
+    taken = frozenset({within.variable}) if within else frozenset()
+    value = tangent(expr, motion.along, taken)
+    return tuple(motion.emitted), value or ZERO
+
+
+@dataclass(slots=True)
+class _Motion:
+    """What moves, and the derivatives written so far."""
+
+    definitions: Mapping[str, Definition]
+    rates: Mapping[str, Binding]
+    known: dict[str, Expr | None] = field(default_factory=dict)
+    emitted: list[Definition] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, system: System) -> _Motion:
+        definitions = {name: item for item in system.bindings for name in defined(item)}
+        return cls(definitions, merged_rates(system.rates))
+
+    def along(self, name: Name) -> Expr | None:
+        if name.id == TIME:
+            return ONE
+        if name.id not in self.known:
+            self.known[name.id] = self._derive(name.id)
+        return _read(self.known[name.id], name.at)
+
+    def _derive(self, name: str) -> Expr | None:
+        if name in self.rates:
+            return self._emit(name, self.rates[name].value, self.rates[name].range)
+        match self.definitions.get(name):
+            case None:
+                return None
+            case Binding(_, value, span):
+                derived = tangent(value, self.along, _variables(span))
+                return None if derived is None else self._emit(name, derived, span)
+            case LinearSolve() as solve:
+                self._solve(solve)
+                return self.known[name]
+            case SetValuedTerm():
+                raise ValueError(f"the multiplier `{name}` has no derivative in time")
+
+    def _emit(self, name: str, value: Expr, span: IndexRange | None) -> Expr:
+        """Name a derivative, unless it is a plain value already."""
+        match value:
+            case Number() | Name(at=None):
+                return value
+            case _:
+                self.emitted.append(
+                    Binding(f"{name}.dot", value, span, role="part", span=value.span)
+                )
+                return Name(f"{name}.dot", Index(span.variable) if span else None)
+
+    def _solve(self, solve: LinearSolve) -> None:
+        """``M u = r`` gives ``M u' = r' - M' u``: the same matrix again."""
+        right = []
+        for row, value in zip(solve.matrix, solve.right, strict=True):
+            terms = [tangent(value, self.along, _variables(solve.range))]
+            for coefficient, unknown in zip(row, solve.unknowns, strict=True):
+                moving = tangent(coefficient, self.along, _variables(solve.range))
+                at = Index(solve.range.variable) if solve.range else None
+                terms.append(moving and negate(multiply(moving, Name(unknown, at))))
+            present = [term for term in terms if term is not None]
+            right.append(add(*present) if present else ZERO)
+        moved = tuple(f"{unknown}.dot" for unknown in solve.unknowns)
+        self.emitted.append(replace(solve, unknowns=moved, right=tuple(right)))
+        at = Index(solve.range.variable) if solve.range else None
+        self.known |= {u: Name(dot, at) for u, dot in zip(solve.unknowns, moved, strict=True)}
+
+
+def _variables(span: IndexRange | None) -> frozenset[str]:
+    return frozenset({span.variable}) if span else frozenset()
+
+
+def _read(derived: Expr | None, at: Index | None) -> Expr | None:
+    """Return a known derivative at the element ``at``."""
+    match derived:
+        case Name(at=Index(variable)) if variable is not None and at is not None:
+            return shifted(derived, variable, at)
+        case _:
+            return derived
+
+
+def defined(item: Definition) -> tuple[str, ...]:
+    """Return the names that a definition defines."""
+    match item:
+        case Binding(name):
+            return (name,)
+        case LinearSolve(unknowns):
+            return unknowns
+        case SetValuedTerm(multiplier=multiplier):
+            return multiplier
+
+
+def merged_rates(rates: Iterable[Rate]) -> dict[str, Binding]:
+    """Return one value for each state: pieces of a family under an ``if`` on the index."""
+    pieces: dict[str, list[Rate]] = {}
+    for rate in rates:
+        pieces.setdefault(rate.state, []).append(rate)
+    return {state: _merged(state, parts) for state, parts in pieces.items()}
+
+
+def _merged(state: str, parts: list[Rate]) -> Binding:
+    whole = parts[0].range
+    if whole is None or len(parts) == 1:
+        return Binding(state, parts[0].value, whole, role="part")
+    spanned = [(part.range, part) for part in parts if part.range is not None]
+    ordered = sorted(spanned, key=lambda pair: pair[0].first)
+    variable = Index(whole.variable)
+    value: Expr | None = None
+    for span, part in reversed(ordered):
+        own = shifted(part.value, span.variable, variable)
+        inside = Call("<=", (variable, Index(None, span.last)))
+        value = own if value is None else If(inside, own, value)
+    assert value is not None
+    covered = IndexRange(whole.variable, ordered[0][0].first, ordered[-1][0].last)
+    return Binding(state, value, covered, role="part")
+
+
+def reads(expr: Expr) -> frozenset[str]:
+    """Return the names that an expression reads."""
+    return frozenset(name.id for name in names(expr))
