@@ -42,10 +42,17 @@ def command(models: tuple[str, ...], style: str, strict: bool, watch: bool) -> i
         return _check(models, style, strict)
     if STANDARD_INPUT in models:
         raise click.UsageError("`--watch` needs files, not standard input")
+    return _watch(models, style, strict)
+
+
+def _watch(models: Sequence[str], style: str, strict: bool) -> int:
     from nsode.cli.watch import watched
 
-    for _ in watched(models):
-        _check(models, style, strict)
+    try:
+        for _ in watched(models):
+            _check(models, style, strict)
+    except KeyboardInterrupt:
+        pass
     return 0
 
 

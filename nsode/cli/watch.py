@@ -9,26 +9,21 @@ from pathlib import Path
 
 import click
 
-from nsode.cli.terminal import say
-
 _PAUSE = 0.2  # seconds between two looks
 
 
 def watched(files: Sequence[str]) -> Iterator[None]:
-    """Yield once, and again after each change of a file, until Ctrl-C."""
+    """Yield once, and again after each change of a file, for ever."""
     seen = None
-    try:
-        while True:
-            stamps = [_stamp(Path(file)) for file in files]
-            if stamps != seen:
-                seen = stamps
-                if sys.stdout.isatty():
-                    click.clear()
-                yield
-                sys.stdout.flush()
-            time.sleep(_PAUSE)
-    except KeyboardInterrupt:
-        say()
+    while True:
+        stamps = [_stamp(Path(file)) for file in files]
+        if stamps != seen:
+            seen = stamps
+            if sys.stdout.isatty():
+                click.clear()
+            yield
+            sys.stdout.flush()
+        time.sleep(_PAUSE)
 
 
 def _stamp(path: Path) -> tuple[int, int, int] | None:
