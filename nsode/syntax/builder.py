@@ -1,50 +1,40 @@
-"""What each rule of the grammar becomes: the methods are named like the rules."""
+"""What each rule of the grammar becomes; the methods are named like the rules."""
+
+# ruff: noqa: D102 (the grammar says what each rule is)
 
 from __future__ import annotations
 
 from typing import Any
 
-from lark import Token, Transformer, v_args
+from lark import Transformer, v_args
 
-from nsode.diagnostics import Diagnostic, Label, ModelError
+from nsode.diagnostics import refuse
 from nsode.expr import Call, Expr, If, Name, Number
 from nsode.source import NOWHERE, Span
 from nsode.syntax import ast
-from nsode.syntax.words import FILE_KEYWORDS, RESERVED
-
-
-def _span(token: Token) -> Span:
-    return Span(token.start_pos, token.end_pos)  # type: ignore[arg-type]
-
-
-def _from_to(first: Token | Expr, last: Token | Expr) -> Span:
-    start = first.start_pos if isinstance(first, Token) else first.span.start
-    end = last.end_pos if isinstance(last, Token) else last.span.end
-    return Span(start, end)  # type: ignore[arg-type]
+from nsode.syntax.tokens import Token
+from nsode.syntax.words import RESERVED
 
 
 def _identifier(token: Token) -> ast.Identifier:
-    return ast.Identifier(str(token), span=_span(token))
+    return ast.Identifier(token.text, span=token.span)
 
 
 def _declared(token: Token) -> ast.Identifier:
-    if token in RESERVED:
-        kind = "kept free" if token in FILE_KEYWORDS else "a keyword"
-        raise ModelError(
-            [
-                Diagnostic(
-                    "NS103",
-                    f"`{token}` is {kind} and cannot be declared",
-                    (Label(_span(token), "choose another name"),),
-                    help=f"for instance `{token}_` or `{token}1`",
-                )
-            ]
-        )
+    if token.text in RESERVED:
+        message = f"`{token.text}` is a word of the language and cannot name anything else"
+        way_out = f"for instance `{token.text}1`"
+        raise refuse("NS103", message, token.span, "choose another name", help=way_out)
     return _identifier(token)
 
 
 def _unit(token: Token | None) -> ast.Unit | None:
-    return None if token is None else ast.Unit(token[1:-1].strip(), span=_span(token))
+    return None if token is None else ast.Unit(token.text[1:-1].strip(), span=token.span)
+
+
+def _from_to(first: Token | Expr, last: Token | Expr) -> Span:
+    start = first.start if isinstance(first, Token) else first.span.start
+    return Span(start, last.end if isinstance(last, Token) else last.span.end)
 
 
 def _binary(function: str, left: Expr, right: Expr) -> Call:
@@ -52,7 +42,7 @@ def _binary(function: str, left: Expr, right: Expr) -> Call:
 
 
 @v_args(inline=True)
-class Builder(Transformer[Token, Any]):
+class Builder(Transformer[Any, Any]):
     """Builds the tree of one statement; ``statement`` is set to its span beforehand."""
 
     statement: Span = NOWHERE
@@ -65,9 +55,7 @@ class Builder(Transformer[Token, Any]):
     def parameter(
         self, declarator: ast.Declarator, value: Expr, unit: Token | None, *bounds: ast.Bound
     ) -> ast.ParameterDeclaration:
-        return ast.ParameterDeclaration(
-            declarator, value, _unit(unit), bounds, span=self.statement
-        )
+        return ast.ParameterDeclaration(declarator, value, _unit(unit), bounds, span=self.statement)
 
     def constant(self, name: Token, value: Expr) -> ast.ConstantDeclaration:
         return ast.ConstantDeclaration(_declared(name), value, span=self.statement)
@@ -104,34 +92,33 @@ class Builder(Transformer[Token, Any]):
     def assume(self, condition: Expr) -> ast.Assumption:
         return ast.Assumption(condition, span=self.statement)
 
-    def declarator(self, name: Token, *subscripts: ast.RangeSyntax | Expr) -> ast.Declarator:
-        range_ = None
-        if subscripts and isinstance(subscripts[0], ast.RangeSyntax):
-            range_, *subscripts = subscripts  # type: ignore[assignment]
-        end = subscripts[-1].span.end + 1 if subscripts else name.end_pos
+    def declarator(
+        self, name: Token, range_: ast.RangeSyntax | None, *sizes: tuple[Expr, Token]
+    ) -> ast.Declarator:
+        end = sizes[-1][1].end if sizes else range_.span.end + 1 if range_ else name.end
         return ast.Declarator(
             _declared(name),
             range_,
-            tuple(subscripts),  # type: ignore[arg-type]
-            span=Span(name.start_pos, end),  # type: ignore[arg-type]
+            tuple(size for size, _ in sizes),
+            span=Span(name.start, end),
         )
 
     def family(self, range_: ast.RangeSyntax) -> ast.RangeSyntax:
         return range_
 
-    def size(self, size: Expr) -> Expr:
-        return size
+    def size(self, size: Expr, end: Token) -> tuple[Expr, Token]:
+        return size, end
 
     def range(self, variable: Token, first: Expr, last: Expr) -> ast.RangeSyntax:
         return ast.RangeSyntax(
             _declared(variable),
             first,
             last,
-            span=Span(variable.start_pos, last.span.end),  # type: ignore[arg-type]
+            span=Span(variable.start, last.span.end),
         )
 
     def bound(self, relation: Token, value: Expr) -> ast.Bound:
-        return ast.Bound(str(relation), value, span=_from_to(relation, value))
+        return ast.Bound(relation.text, value, span=_from_to(relation, value))
 
     # equations
 
@@ -163,17 +150,10 @@ class Builder(Transformer[Token, Any]):
         return tuple(map(_identifier, names))
 
     def default(self, kind: Token) -> str:
-        if kind not in ("dio", "sgn"):
-            raise ModelError(
-                [
-                    Diagnostic(
-                        "NS001",
-                        f"`{kind}` is no kind of set-valued term",
-                        (Label(_span(kind), "expected `dio` or `sgn`"),),
-                    )
-                ]
-            )
-        return str(kind)
+        if kind.text not in ("dio", "sgn"):
+            message = f"`{kind.text}` is no kind of set-valued term"
+            raise refuse("NS001", message, kind.span, "expected `dio` or `sgn`")
+        return kind.text
 
     def law(self, name: Token) -> ast.Identifier:
         return _identifier(name)
@@ -182,12 +162,12 @@ class Builder(Transformer[Token, Any]):
         return settings
 
     def setting(self, name: Token, value: Expr, unit: Token | None) -> ast.Setting:
-        end = value.span.end if unit is None else unit.end_pos
+        end = value.span.end if unit is None else unit.end
         return ast.Setting(
             _identifier(name),
             value,
             _unit(unit),
-            span=Span(name.start_pos, end),  # type: ignore[arg-type]
+            span=Span(name.start, end),
         )
 
     def equilibrium(self) -> None:
@@ -197,8 +177,8 @@ class Builder(Transformer[Token, Any]):
         return ast.SimulateStatement(settings, span=self.statement)
 
     def duration(self, value: Expr, unit: Token | None) -> ast.Setting:
-        end = value.span.end if unit is None else unit.end_pos
-        span = Span(value.span.start, end)  # type: ignore[arg-type]
+        end = value.span.end if unit is None else unit.end
+        span = Span(value.span.start, end)
         return ast.Setting(
             ast.Identifier("duration", span=value.span), value, _unit(unit), span=span
         )
@@ -207,9 +187,7 @@ class Builder(Transformer[Token, Any]):
         return self.setting(word, value, unit)
 
     def method(self, word: Token, name: Token) -> ast.Setting:
-        return ast.Setting(
-            _identifier(word), _identifier(name), None, span=_from_to(word, name)
-        )
+        return ast.Setting(_identifier(word), _identifier(name), None, span=_from_to(word, name))
 
     # expressions
 
@@ -226,7 +204,7 @@ class Builder(Transformer[Token, Any]):
         return Call("not", (operand,), span=_from_to(word, operand))
 
     def compare(self, left: Expr, relation: Token, right: Expr) -> Call:
-        return _binary(str(relation), left, right)
+        return _binary(relation.text, left, right)
 
     def addition(self, *terms: Expr) -> Call:
         return Call("+", terms, span=Span(terms[0].span.start, terms[-1].span.end))
@@ -249,18 +227,16 @@ class Builder(Transformer[Token, Any]):
         return _binary("^", base, exponent)
 
     def number(self, literal: Token) -> Number:
-        return Number(float(literal), span=_span(literal))
+        return Number(float(literal.text), span=literal.span)
 
     def name(self, name: Token) -> Name:
-        return Name(str(name), span=_span(name))
+        return Name(name.text, span=name.span)
 
-    def call(self, function: Token, *rest: Any) -> Call:
-        *args, end = rest
-        return Call(
-            str(function),
-            tuple(arg for arg in args if arg is not None),
-            span=_from_to(function, end),
-        )
+    def call(self, function: Token, args: tuple[Expr, ...] | None, end: Token) -> Call:
+        return Call(function.text, args or (), span=Span(function.start, end.end))
+
+    def items(self, *items: Expr) -> tuple[Expr, ...]:
+        return items
 
     def reduction(self, word: Token, range_: ast.RangeSyntax, body: Expr, end: Token) -> Expr:
         return ast.Reduction(range_, body, span=_from_to(word, end))
@@ -268,12 +244,11 @@ class Builder(Transformer[Token, Any]):
     def group(self, start: Token, inner: Expr, end: Token) -> ast.Group:
         return ast.Group(inner, span=_from_to(start, end))
 
-    def bracket(self, start: Token, *rest: Any) -> ast.Bracket:
-        *items, end = rest
-        return ast.Bracket(tuple(items), span=_from_to(start, end))
+    def bracket(self, start: Token, items: tuple[Expr, ...], end: Token) -> ast.Bracket:
+        return ast.Bracket(items, span=Span(start.start, end.end))
 
     def subscript(self, base: Expr, index: Expr, end: Token) -> ast.Subscript:
         return ast.Subscript(base, index, span=_from_to(base, end))
 
     def component(self, base: Expr, field: Token) -> ast.Component:
-        return ast.Component(base, str(field), span=_from_to(base, field))
+        return ast.Component(base, field.text, span=_from_to(base, field))

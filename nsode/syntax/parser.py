@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from typing import Any, cast
 
-from lark import Lark, Token
+from lark import Lark
 from lark.exceptions import UnexpectedToken
 from lark.lexer import Lexer
+from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.source import Source
@@ -18,8 +19,9 @@ from nsode.syntax import ast, depth, headers, slips
 from nsode.syntax.builder import Builder
 from nsode.syntax.limits import DEFAULT_LIMITS, Limits
 from nsode.syntax.reading import too_large
-from nsode.syntax.scanner import Scanner, StatementTokens, Vocabulary
-from nsode.syntax.unexpected import explain
+from nsode.syntax.scanner import StatementTokens, scan
+from nsode.syntax.tokens import Token, Vocabulary
+from nsode.syntax.unexpected import Slip, explain
 
 
 def grammar() -> str:
@@ -27,28 +29,17 @@ def grammar() -> str:
     return files("nsode.grammar").joinpath("di.lark").read_text(encoding="utf-8")
 
 
-class _Replay(Lexer):
-    """Hands the scanner's tokens to the parser; a word is a keyword where one may stand."""
+class _NoLexer(Lexer):
+    """Stands in for lark's lexers: the scanner has cut the text already."""
 
-    __future_interface__ = True
+    def __init__(self, _configuration: object) -> None: ...
 
-    def __init__(self, _conf: Any) -> None: ...
-
-    def lex(self, lexer_state: Any, parser_state: Any) -> Iterator[Token]:
-        keywords: dict[str, str] = lexer_state.text[1]
-        states = parser_state.parse_conf.states
-        stack = parser_state.state_stack
-        for token in lexer_state.text[0]:
-            if token.type == "NAME" and token in keywords:
-                keyword = keywords[token]
-                actions = states[stack[-1]]
-                if keyword in actions or "NUMBER" in actions or "NAME" not in actions:
-                    token.type = keyword
-            yield token
+    def lex(self, lexer_state: object, parser_state: object) -> Iterator[Any]:
+        raise NotImplementedError
 
 
 class Parser:
-    """A parser for models; :func:`parser` holds the one of this process."""
+    """A parser of single statements; :func:`parser` holds the one of this process."""
 
     def __init__(self) -> None:
         self.builder = Builder()
@@ -56,23 +47,48 @@ class Parser:
             grammar(),
             start="statement",
             parser="lalr",
-            lexer=_Replay,
+            lexer=_NoLexer,
             transformer=cast(Any, self.builder),
         )
         self.vocabulary = Vocabulary(self.lark.terminals)
 
-    def statement(self, statement: StatementTokens, limits: Limits) -> Any:
-        """Return the tree of one statement; a ModelError says what is wrong with it."""
+    def parse(self, statement: StatementTokens) -> ast.Statement | ast.Identifier:
+        """Return the tree of a statement; the identifier of a ``model`` line.
+
+        Raises
+        ------
+        ModelError
+            With the first error of the statement.
+        """
         self.builder.statement = statement.span
+        fed: list[Token] = []
+        state = self.lark.parse_interactive()
         try:
-            tree = self.lark.parse(cast(Any, (statement.tokens, self.vocabulary.keywords)))
+            for token in statement.tokens:
+                fed.append(self._as_keyword(token, state))
+                state.feed_token(cast(Any, fed[-1]))
+            return cast(ast.Statement, state.feed_eof())  # type: ignore[no-untyped-call]
         except UnexpectedToken as error:
-            raise ModelError([explain(error, statement.tokens, self.vocabulary.texts)]) from None
-        if len(statement.tokens) > limits.depth and (
-            place := depth.beyond(tree, limits.depth)
-        ):
-            raise ModelError([slips.too_deep(place, limits.depth)])
-        return tree
+            bad = None if error.token.type == "$END" else fed.pop()
+            rest = statement.tokens[len(fed) + 1 :]
+            slip = Slip(fed, bad, rest, self._expected(fed))
+            raise ModelError([explain(slip, self.vocabulary.texts)]) from None
+
+    def _as_keyword(self, token: Token, state: InteractiveParser) -> Token:
+        """Make a word a keyword where one may stand, or where an operand may stand."""
+        if token.type != "NAME" or token.text not in self.vocabulary.keywords:
+            return token
+        keyword = self.vocabulary.keywords[token.text]
+        choices = state.choices()  # type: ignore[no-untyped-call]
+        is_keyword = keyword in choices or "NUMBER" in choices or "NAME" not in choices
+        return token._replace(type=keyword) if is_keyword else token
+
+    def _expected(self, tokens: Sequence[Token]) -> set[str]:
+        """Return the terminals that may follow these tokens."""
+        state = self.lark.parse_interactive()
+        for token in tokens:
+            state.feed_token(cast(Any, token))
+        return cast(set[str], state.accepts())  # type: ignore[no-untyped-call]
 
 
 @cache
@@ -91,21 +107,29 @@ def parse(source: Source, limits: Limits = DEFAULT_LIMITS) -> ast.Model:
     """
     if len(source.text) > limits.size:
         raise too_large(source, limits)
-    own = parser()
-    scanned = Scanner(source, own.vocabulary, limits).run()
-    errors: list[Diagnostic] = []
-    name, statements = headers.take(source, scanned, limits, errors)
-    trees = []
+    statements = scan(source, parser().vocabulary, limits)
+    errors = headers.judge(source, statements)
+    names, trees = [], []
     for statement in statements:
         try:
-            if statement.errors:
-                raise ModelError(statement.errors)
-            trees.append(own.statement(statement, limits))
+            tree = _parse_statement(statement, limits)
         except ModelError as error:
             errors.extend(error.diagnostics)
-    if errors or name is None:
+        else:
+            names.append(tree) if isinstance(tree, ast.Identifier) else trees.append(tree)
+    if errors:
         raise ModelError(_in_order(errors, limits), source)
-    return ast.Model(name, tuple(trees), source)
+    return ast.Model(names[0], tuple(trees), source)
+
+
+def _parse_statement(statement: StatementTokens, limits: Limits) -> ast.Statement | ast.Identifier:
+    if statement.errors:
+        raise ModelError(statement.errors)
+    tree = parser().parse(statement)
+    may_be_deep = len(statement.tokens) > limits.depth
+    if may_be_deep and (place := depth.beyond(tree, limits.depth)):
+        raise ModelError([slips.too_deep(place, limits.depth)])
+    return tree
 
 
 def _in_order(errors: list[Diagnostic], limits: Limits) -> list[Diagnostic]:

@@ -23,7 +23,7 @@ def read(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> Sourc
     """
     name = os.fspath(path)
     try:
-        with open(path, "rb", opener=_open_without_waiting) as file:  # noqa: PTH123
+        with open(path, "rb", opener=_open_without_waiting) as file:
             status = os.fstat(file.fileno())
             if not stat.S_ISREG(status.st_mode):
                 raise _unreadable(name, "it is not a regular file")
@@ -54,7 +54,11 @@ def too_large(source: Source, limits: Limits) -> ModelError:
     """Return the error for a text beyond ``limits.size``."""
     message = f"the model is larger than {limits.size} bytes"
     return ModelError(
-        [Diagnostic("NS012", message, help="use a family (`state x[i in 1..n]`) instead of copies")],
+        [
+            Diagnostic(
+                "NS012", message, help="use a family (`state x[i in 1..n]`) instead of copies"
+            )
+        ],
         source,
     )
 

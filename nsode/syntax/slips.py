@@ -9,128 +9,113 @@ from math import isinf
 
 from nsode.diagnostics import Diagnostic, Label
 from nsode.source import Span
+from nsode.syntax.tokens import Token
 
 # characters
 
-
 _LOOKALIKES = {
-    "−": "-",
-    "–": "-",
-    "—": "-",
-    "×": "*",
-    "·": "*",
-    "⋅": "*",
-    "÷": "/",
-    "∕": "/",
-    "≤": "<=",
-    "≥": ">=",
-    "≠": "!=",
-    "≔": "=",
-    "²": "^2",
-    "³": "^3",
-    "“": "",
-    "”": "",
-    "‘": "",
-    "’": "",
+    "\N{MINUS SIGN}": "-",
+    "\N{EN DASH}": "-",
+    "\N{EM DASH}": "-",
+    "\N{MULTIPLICATION SIGN}": "*",
+    "\N{MIDDLE DOT}": "*",
+    "\N{DOT OPERATOR}": "*",
+    "\N{DIVISION SIGN}": "/",
+    "\N{DIVISION SLASH}": "/",
+    "\N{LESS-THAN OR EQUAL TO}": "<=",
+    "\N{GREATER-THAN OR EQUAL TO}": ">=",
+    "\N{NOT EQUAL TO}": "!=",
+    "\N{SUPERSCRIPT TWO}": "^2",
+    "\N{SUPERSCRIPT THREE}": "^3",
 }
-_GREEK = re.compile(r"GREEK (?:SMALL|CAPITAL) LETTER (?:FINAL )?([A-Z]+)$")
-
-
-def foreign(text: str, start: int, before: Sequence[str]) -> Diagnostic:
-    """Return the error for a character that begins no token."""
-    character = text[start]
-    span = Span(start, start + 1)
-    if character == "{":
-        return _unclosed_unit(text, start)
-    if character.isascii() and character.isprintable():
-        return _stray(text, start, before)
-    code = f"U+{ord(character):04X}"
-    name = unicodedata.name(character, "")
-    label = f"{code} {name}".rstrip()
-    if not character.isprintable() or unicodedata.category(character) in ("Mn", "Cf", "Zs"):
-        message = f"invisible character {label}"
-        return Diagnostic("NS002", message, (Label(span, code),), help="delete it")
-    message = f"`{character}` ({label}) is not part of the language"
-    return Diagnostic("NS002", message, (Label(span, code),), help=_ascii_way_out(character, name))
-
-
-def _ascii_way_out(character: str, name: str) -> str:
-    if character in _LOOKALIKES:
-        plain = _LOOKALIKES[character]
-        return f"write `{plain}`" if plain else "the language has no strings; leave it out"
-    if greek := _GREEK.match(name):
-        word = greek[1].lower()
-        return f"names are ASCII; write `{word if 'SMALL' in name else word.capitalize()}`"
-    compatible = unicodedata.normalize("NFKC", character)
-    if compatible.isascii():
-        return f"it only looks like `{compatible}`; write the ASCII character"
-    return "names and operators are ASCII; any text may stand in a comment after `#`"
-
-
-_STRAY_HELP = {
-    "'": "the language has no strings",
-    '"': "the language has no strings",
-    ";": "a new line ends a statement",
+_GREEK = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (?:FINAL )?([A-Z]+)$")
+_STRAY = {
     "&": "write `and`",
+    "&&": "write `and`",
     "|": "write `or`",
+    "||": "write `or`",
     "!": "write `not`",
-    "_": "a name begins with a letter",
-    "}": "a unit is written `{N/m}`",
-    "%": "write `mod(a, b)`; a comment begins with `#`",
-    "\\": "a line goes on by itself inside ( and [",
+    ";": "a new line ends a statement",
+    "}": "a unit stands in braces, as in `{N/m}`",
+    "%": "the remainder is `mod(a, b)`; a comment begins with `#`",
+    "\\": "inside ( and [ a statement goes on in the next line by itself",
 }
 
 
-def _stray(text: str, start: int, before: Sequence[str]) -> Diagnostic:
-    character = text[start]
-    if character == "_":
-        return _leading_underscore(text, start)
-    length = 2 if character in "&|" and text[start + 1 : start + 2] == character else 1
-    span = Span(start, start + length)
-    return Diagnostic(
-        "NS001",
-        f"unexpected `{text[start : start + length]}`",
-        (Label(span, "this character has no place in the language"),),
-        help=_STRAY_HELP.get(character),
-    )
+def foreign(piece: Token, before: Sequence[Token]) -> Diagnostic:
+    """Return the error for characters that begin no token."""
+    character = piece.text[0]
+    if character == "{":
+        return _unclosed_unit(piece)
+    if character.isascii() and character.isprintable():
+        help_ = _STRAY.get(piece.text)
+        if character == "'" and before and before[-1].end == piece.start:
+            help_ = f"a derivative is written `der({before[-1].text})`"
+        label = Label(piece.span, "this has no place in the language")
+        return Diagnostic("NS001", f"unexpected `{piece.text}`", (label,), help=help_)
+    span = Span(piece.start, piece.start + 1)
+    name = unicodedata.name(character, "control character")
+    code = f"U+{ord(character):04X}"
+    if not character.isprintable() or unicodedata.category(character) in ("Mn", "Zs"):
+        message = f"{code} {name} cannot be seen and is not part of the language"
+        return Diagnostic("NS002", message, (Label(span, "in this place"),), help="delete it")
+    message = f"`{character}` ({code} {name}) is not part of the language"
+    return Diagnostic("NS002", message, (Label(span),), help=_in_ascii(character, name))
 
 
-def _unclosed_unit(text: str, start: int) -> Diagnostic:
-    end = text.find("\n", start)
-    end = len(text) if end < 0 else end
+def _in_ascii(character: str, name: str) -> str:
+    if character in _LOOKALIKES:
+        return f"write `{_LOOKALIKES[character]}`"
+    if greek := _GREEK.match(name):
+        word = greek[2].lower()
+        return f"names are ASCII: write `{word if greek[1] == 'SMALL' else word.capitalize()}"
+    plain = unicodedata.normalize("NFKC", character)
+    if plain.isascii():
+        return f"it only looks like `{plain}`; write the ASCII character"
+    return "names and operators are ASCII; any text may stand in a comment, behind `#`"
+
+
+def string(piece: Token) -> Diagnostic:
+    """Return the error for a quoted text."""
+    label = Label(piece.span, "the language has no strings")
+    return Diagnostic("NS001", f"unexpected {short(piece.text)}", (label,))
+
+
+def _unclosed_unit(piece: Token) -> Diagnostic:
     return Diagnostic(
         "NS004",
         "`{` is never closed",
-        (Label(Span(start, start + 1), "the line ends before its `}`"),),
+        (Label(piece.span, "the line ends before its `}`"),),
         help="a unit stands in braces on one line, as in `{N/m}`",
     )
 
 
+def short(text: str) -> str:
+    """Return a text in back-ticks, its tail left out where it is long."""
+    return f"`{text}`" if len(text) <= 24 else f"`{text[:20]}…`"
+
+
 # names
 
-_WORD = re.compile(r"[A-Za-z0-9_]+")
 
-
-def _leading_underscore(text: str, start: int) -> Diagnostic:
-    word = _WORD.match(text, start)
-    end = word.end() if word else start + 1
-    name = text[start:end].strip("_")
-    fine = name and name[0].isalpha() and len(name) < 64
+def leading_underscore(piece: Token, limit: int) -> Diagnostic:
+    """Return the error for a name that begins with an underscore."""
+    name = piece.text.strip("_")
+    usable = name[:1].isalpha() and len(name) <= limit
     return Diagnostic(
         "NS006",
         "a name begins with a letter, not with `_`",
-        (Label(Span(start, end)),),
-        help=f"write `{name}`" if fine else None,
+        (Label(piece.span),),
+        help=f"write `{name}`" if usable else None,
     )
 
 
-def name_too_long(name: str, start: int, limit: int) -> Diagnostic:
-    """Return the error for a name beyond the limit."""
-    return Diagnostic(
-        "NS010",
-        f"the name `{name[:16]}…` has {len(name)} characters",
-        (Label(Span(start, start + len(name)), f"at most {limit} are allowed"),),
-    )
+def name_too_long(name: Token, limit: int) -> Diagnostic | None:
+    """Return the error for a name beyond the limit; None for any other name."""
+    if len(name.text) <= limit:
+        return None
+    message = f"the name {short(name.text)} has {len(name.text)} characters"
+    return Diagnostic("NS010", message, (Label(name.span, f"at most {limit} are allowed"),))
 
 
 # numbers
@@ -148,26 +133,26 @@ def malformed_number(text: str, span: Span) -> Diagnostic | None:
         plain = literal.lstrip("0")
         plain = plain if plain and plain[0].isdigit() else "0" + plain
         return _number(
-            f"`{_short(literal)}` begins with a zero, which means octal in C",
+            f"{short(literal)} begins with a zero, which means octal in C",
             span,
-            f"write `{_short(plain)}`",
+            f"write {short(plain)}",
         )
     value = float(literal)
     if isinf(value):
         return _number(
-            f"`{_short(literal)}` is too large for a double",
+            f"{short(literal)} is too large for a double",
             span,
             "the largest is about 1.8e308",
         )
     if value == 0 and re.search(r"[1-9]", re.split("[eE]", literal)[0]):
         return _number(
-            f"`{_short(literal)}` is zero as a double",
+            f"{short(literal)} is zero as a double",
             span,
             "the smallest is about 2.2e-308; write `0` where zero is meant",
         )
     if 0 < value < 2.2250738585072014e-308:
         return _number(
-            f"`{_short(literal)}` is subnormal: a double holds it with fewer digits",
+            f"{short(literal)} is subnormal: a double holds it with fewer digits",
             span,
             "the smallest full double is about 2.2e-308",
         )
@@ -180,24 +165,20 @@ def _number_runs_on(text: str, span: Span) -> Diagnostic:
     literal, rest = text[span.start : span.end], text[span.end : end]
     span = Span(span.start, end)
     if literal == "0" and rest[0] in "xXbBoO":
-        return _number(f"`{_short(literal + rest)}` is not decimal", span, "write it in decimal")
+        return _number(f"{short(literal + rest)} is not decimal", span, "write it in decimal")
     if rest[0] == "." or rest[0].isdigit():
-        return _number(f"`{_short(literal + rest)}` has two decimal points", span, None)
+        return _number(f"{short(literal + rest)} has two decimal points", span, None)
     if rest in ("e", "E"):
         return _number(f"`{literal}{rest}` lacks its exponent", span, f"write `{literal}e3`")
     return _number(
-        f"`{_short(literal + rest)}` is neither a number nor a name",
+        f"{short(literal + rest)} is neither a number nor a name",
         span,
-        f"write `{_short(literal)}*{_short(rest)}` for a product; a name begins with a letter",
+        f"write {short(literal)}*{short(rest)} for a product; a name begins with a letter",
     )
 
 
 def _number(message: str, span: Span, help_: str | None) -> Diagnostic:
     return Diagnostic("NS003", message, (Label(span),), help=help_)
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= 24 else f"{text[:20]}…"
 
 
 # units
@@ -207,18 +188,17 @@ _UNIT = re.compile(
 )
 
 
-def malformed_unit(text: str, start: int) -> Diagnostic | None:
+def malformed_unit(unit: Token) -> Diagnostic | None:
     """Return the error for a unit in braces; None where its characters are sound."""
-    inner = text[1:-1]
+    inner = unit.text[1:-1]
     match = _UNIT.match(inner)
     sound = match.end() if match else 0
     example = "a unit is written like `{N/m}`, `{kg*m/s^2}` or `{1}`"
     if not inner.strip():
-        span = Span(start, start + len(text))
-        return Diagnostic("NS008", "empty unit", (Label(span),), help=example)
+        return Diagnostic("NS008", "empty unit", (Label(unit.span),), help=example)
     if sound == len(inner):
         return None
-    place = start + 1 + sound
+    place = unit.start + 1 + sound
     return Diagnostic(
         "NS008",
         f"`{inner[sound]}` has no place in a unit",
@@ -232,30 +212,25 @@ def malformed_unit(text: str, start: int) -> Diagnostic | None:
 _PARTNER = {"(": ")", "[": "]", ")": "(", "]": "["}
 
 
-def nothing_to_close(bracket: str, span: Span) -> Diagnostic:
+def nothing_to_close(bracket: Token) -> Diagnostic:
     """Return the error for a closing bracket without its opening one."""
-    message = f"`{bracket}` closes nothing"
-    return Diagnostic("NS004", message, (Label(span, f"no `{_PARTNER[bracket]}` is open here"),))
+    label = Label(bracket.span, f"no `{_PARTNER[bracket.text]}` is open here")
+    return Diagnostic("NS004", f"`{bracket.text}` closes nothing", (label,))
 
 
-def mismatched(opening: str, closing: str, span: Span) -> Diagnostic:
+def mismatched(opening: Token, closing: Token) -> Diagnostic:
     """Return the error for ``(`` closed by ``]`` or the other way round."""
-    start = opening.start_pos  # type: ignore[attr-defined]
     labels = (
-        Label(span, f"`{_PARTNER[opening]}` is wanted here"),
-        Label(Span(start, start + 1), "for this bracket"),
+        Label(closing.span, f"`{_PARTNER[opening.text]}` is wanted here"),
+        Label(opening.span, "for this bracket"),
     )
-    return Diagnostic("NS004", f"`{opening}` is closed by `{closing}`", labels)
+    return Diagnostic("NS004", f"`{opening.text}` is closed by `{closing.text}`", labels)
 
 
-def unclosed(opening: str, why: str) -> Diagnostic:
+def unclosed(opening: Token, why: str) -> Diagnostic:
     """Return the error for a bracket that is open where a statement must end."""
-    start = opening.start_pos  # type: ignore[attr-defined]
-    return Diagnostic(
-        "NS004",
-        f"`{opening}` is never closed",
-        (Label(Span(start, start + 1), f"{why} before its `{_PARTNER[opening]}`"),),
-    )
+    label = Label(opening.span, f"{why} before its `{_PARTNER[opening.text]}`")
+    return Diagnostic("NS004", f"`{opening.text}` is never closed", (label,))
 
 
 def too_deep(span: Span, limit: int) -> Diagnostic:
