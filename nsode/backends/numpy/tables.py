@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
 from itertools import groupby
 from math import isfinite, isnan
@@ -37,10 +38,15 @@ def tables(ode: AugmentedODE, real: str) -> list[str]:
 def _names(item: Placed) -> str:
     """Return an entry of a tuple: the name, or for a family the names of its elements."""
     if item.range is None:
-        return repr(item.name).replace("'", '"')
-    before, after = element(item.name, 0).split("[0]", 1)
+        return json.dumps(item.name)
+    before, after = (_inner(part) for part in element(item.name, 0).split("[0]", 1))
     spread = f"range({item.range.first}, {item.range.last + 1})"
     return f'*(f"{before}[{{k}}]{after}" for k in {spread})'
+
+
+def _inner(text: str) -> str:
+    """Return text as it stands inside the quotes of an f-string."""
+    return json.dumps(text)[1:-1].replace("{", "{{").replace("}", "}}")
 
 
 def _default(item: Input) -> str:
