@@ -80,7 +80,7 @@ def split(ode: AugmentedODE) -> AugmentedODE:
         ode,
         bindings=tuple(chain.from_iterable(map(_split_definition, ode.bindings))),
         rates=tuple(chain.from_iterable(map(_split_rate, ode.rates))),
-        checks=tuple(chain.from_iterable(map(_split_check, ode.checks))),
+        checks=tuple(chain.from_iterable(map(split_check, ode.checks))),
         states=tuple(replace(s, initial=_whole(s.range, s.initial)) for s in ode.states),
         outputs=tuple(replace(y, value=_whole(y.range, y.value)) for y in ode.outputs),
     )
@@ -119,7 +119,8 @@ def _split_rate(rate: Rate) -> Iterable[Rate]:
     return [replace(rate, range=r, value=v) for r, (v,) in pieces(rate.range, rate.value)]
 
 
-def _split_check(check: Check) -> Iterable[Check]:
+def split_check(check: Check) -> list[Check]:
+    """Return the pieces of a check; those that indices alone fulfil vanish."""
     if check.range is None:
         found = [replace(check, condition=settle(check.condition))]
     else:

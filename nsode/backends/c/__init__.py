@@ -1,1 +1,39 @@
-"""Plain C."""
+"""Plain C: a header, a source file and a description."""
+
+from __future__ import annotations
+
+from nsode.backends import Options
+from nsode.backends.c.expressions import Scope, lower
+from nsode.backends.c.header import header
+from nsode.backends.c.program import program
+from nsode.backends.c.source import source
+from nsode.backends.descriptor import render
+from nsode.ode import AugmentedODE
+
+__all__ = ["Scope", "emit", "lower"]
+
+
+_DEFAULTS = Options()
+
+
+def emit(ode: AugmentedODE, options: Options = _DEFAULTS) -> dict[str, str]:
+    """Write a model as C99 that is also C++.
+
+    Parameters
+    ----------
+    ode
+        The model; its units are SI throughout.
+    options
+        The prefix of every name and the type of a number.
+
+    Returns
+    -------
+    dict
+        ``PREFIX.h``, ``PREFIX.c`` and ``PREFIX.json``.
+    """
+    made = program(ode, options)
+    return {
+        f"{made.prefix}.h": header(made),
+        f"{made.prefix}.c": source(made),
+        f"{made.prefix}.json": render(ode, options),
+    }

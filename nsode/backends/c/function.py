@@ -1,0 +1,206 @@
+"""The body of one generated function, from the work it has to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from nsode.backends.c import solve
+from nsode.backends.c.expressions import condition, lower
+from nsode.backends.c.plan import Group, Plan, Require, Store, Work, plan
+from nsode.backends.c.program import Program, Vector
+from nsode.expr import TIME, Index, IndexRange, Name, Sum
+from nsode.ode import Binding, LinearSolve
+
+_LOOP_VARIABLES = "ijk"
+
+
+def body(program: Program, works: Iterable[Work]) -> list[str]:
+    """Return the lines of a function that does some work, indented once.
+
+    The function has ``t``, ``x``, ``u`` and ``p``; values over ranges are in pieces.
+    """
+    writer = Writer(program, plan(works))
+    for group in writer.plan.groups:
+        writer.group(group)
+    return [*writer.preamble(), *writer.lines]
+
+
+@dataclass(slots=True)
+class Writer:
+    """Lines under way; the scope in which expressions are lowered."""
+
+    program: Program
+    plan: Plan
+    lines: list[str] = field(default_factory=list)
+    loads: dict[str, str] = field(default_factory=dict)
+    indices: dict[str, str | int] = field(default_factory=dict)
+    depth: int = 1
+    loops: int = 0
+    count: int = 0
+
+    @property
+    def single(self) -> bool:
+        """Whether real is float."""
+        return self.program.single
+
+    def preamble(self) -> list[str]:
+        """Return what stands at the top: values read, then arrays of the function."""
+        names = self.program.bindings
+        arrays = [f"    real {names[b]}[{len(over)}];" for b, over in self.plan.stored.items()]
+        return [*(f"    {line}" for line in self.loads.values()), *arrays]
+
+    def line(self, text: str) -> None:
+        """Add a line at the indentation at hand."""
+        self.lines.append("    " * self.depth + text)
+
+    def group(self, group: Group) -> None:
+        """Write the work of a group, in its loop if it has one."""
+        match group.range:
+            case None:
+                self._works(group.works)
+            case IndexRange(_, first, last) if first == last:
+                with self._block(group):
+                    self._works(group.works, first)
+            case over:
+                with self.loop(over) as variable:
+                    self._works(group.works, variable)
+
+    def _works(self, works: Iterable[Work], at: str | int | None = None) -> None:
+        for work in works:
+            with self._index(work.range, at):
+                self._work(work)
+
+    @contextmanager
+    def _index(self, over: IndexRange | None, at: str | int | None) -> Iterator[None]:
+        outer = dict(self.indices)
+        if over is not None and at is not None:
+            self.indices[over.variable] = at
+        yield
+        self.indices = outer
+
+    @contextmanager
+    def _block(self, group: Group) -> Iterator[None]:
+        """Open a block around locals of a single element, which may come again."""
+        if not any(map(self._has_locals, group.works)):
+            yield
+            return
+        self.line("{")
+        self.depth += 1
+        yield
+        self.depth -= 1
+        self.line("}")
+
+    def _has_locals(self, work: Work) -> bool:
+        match work:
+            case Binding(name=name):
+                return name not in self.plan.stored
+            case LinearSolve():
+                return True
+            case _:
+                return False
+
+    @contextmanager
+    def loop(self, over: IndexRange) -> Iterator[str]:
+        """Open a loop over a range; gives the name of its variable."""
+        variable = (
+            _LOOP_VARIABLES[self.loops] if self.loops < len(_LOOP_VARIABLES) else f"i{self.loops}"
+        )
+        self.line(
+            f"for (int {variable} = {over.first}; {variable} <= {over.last}; ++{variable}) {{"
+        )
+        self.depth += 1
+        self.loops += 1
+        yield variable
+        self.loops -= 1
+        self.depth -= 1
+        self.line("}")
+
+    def _work(self, work: Work) -> None:
+        match work:
+            case Binding(name=name, value=value, range=over):
+                text = lower(value, self)
+                self.define(name, over, text)
+            case LinearSolve():
+                solve.write(work, self)
+            case Store(array, place, value, over, first):
+                text = lower(value, self)
+                where = place if over is None else self._added(place, Index(over.variable), first)
+                self.line(f"{array}[{where}] = {text};")
+            case Require(test, status, _):
+                text = condition(test, self)
+                self.line(f"if (!{text}) {{")
+                self.line(f"    return {status};")
+                self.line("}")
+
+    def define(self, name: str, over: IndexRange | None, text: str) -> None:
+        """Write the value of a binding where readers look for it."""
+        local = self.program.bindings[name]
+        if over is not None and name in self.plan.stored:
+            self.line(f"{local}[{self._element(name, Index(over.variable))}] = {text};")
+        else:
+            self.line(f"const real {local} = {text};")
+
+    def fresh(self, stem: str) -> str:
+        """Return a name for a local of our own."""
+        self.count += 1
+        return f"{stem}{self.count}"
+
+    # the scope of expressions
+
+    def use(self, function: str) -> None:
+        """Note that a helper or a function of ``math.h`` is called."""
+        self.program.used.add(function)
+
+    def index(self, index: Index) -> str:
+        """Return an index as an integer expression of C."""
+        return _offset(self._at(index), index.offset)
+
+    def name(self, name: Name) -> str:
+        """Return the C text of a named value."""
+        if name.id == TIME and name.at is None:
+            return TIME
+        for vector in (self.program.x, self.program.p, self.program.u):
+            if name.id in vector.slots:
+                return self._loaded(vector, name)
+        local = self.program.bindings[name.id]
+        if name.at is None or name.id not in self.plan.stored:
+            return local
+        return f"{local}[{self._element(name.id, name.at)}]"
+
+    def sum(self, expr: Sum) -> str:
+        """Write the loop of a sum before the statement at hand; return its variable."""
+        total = self.fresh("sum")
+        self.line(f"real {total} = 0;")
+        with self.loop(expr.range) as variable, self._index(expr.range, variable):
+            self.line(f"{total} += {lower(expr.body, self)};")
+        return total
+
+    def _loaded(self, vector: Vector, name: Name) -> str:
+        local = vector.names[name.id]
+        place = self.program.enumerator(vector, name.id)
+        over = vector.slots[name.id].range
+        if over is None or name.at is None:
+            self.loads[local] = f"const real {local} = {vector.letter}[{place}];"
+            return local
+        self.loads[local] = f"const real *const {local} = {vector.letter} + {place};"
+        return f"{local}[{_offset(self._at(name.at), name.at.offset - over.first)}]"
+
+    def _at(self, index: Index) -> str | int:
+        return 0 if index.variable is None else self.indices[index.variable]
+
+    def _element(self, name: str, at: Index) -> str:
+        return _offset(self._at(at), at.offset - self.plan.stored[name].first)
+
+    def _added(self, place: str, at: Index, first: int) -> str:
+        where = _offset(self._at(at), at.offset - first)
+        return place if where == "0" else f"{place} + {where}"
+
+
+def _offset(at: str | int, offset: int) -> str:
+    if isinstance(at, int):
+        return str(at + offset)
+    if offset == 0:
+        return at
+    return f"{at} + {offset}" if offset > 0 else f"{at} - {-offset}"

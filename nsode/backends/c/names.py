@@ -1,0 +1,71 @@
+"""C names for the names of a model: readable, and no two alike."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+_IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\[-?[0-9]+\])?(\.[A-Za-z0-9_]+)*\Z")
+
+
+def identifier(text: str) -> str:
+    """Return ``text`` if it can begin a C name.
+
+    Raises
+    ------
+    ValueError
+        If it cannot.
+    """
+    if not _IDENTIFIER.match(text):
+        raise ValueError(f"`{text}` cannot begin the names of a C program")
+    return text
+
+
+def plain(name: str) -> str:
+    """Return the name of a place if it may stand in a string of C.
+
+    Raises
+    ------
+    ValueError
+        If it holds anything but letters, digits, dots, underscores and an index.
+    """
+    if not _NAME.match(name):
+        raise ValueError(f"{name!r} is no name of a model")
+    return name
+
+
+@dataclass(slots=True)
+class Mangler:
+    """Hands out C names under one prefix: ``p.x`` is ``x_p_x``, and a clash is numbered.
+
+    Behind a prefix that no keyword, macro or library name begins with, a user's ``int``
+    or ``errno`` is harmless. A dot becomes ``_``; where that makes two names equal, the
+    later one gets a number.
+    """
+
+    prefix: str
+    _given: dict[str, str] = field(default_factory=dict)
+    _taken: set[str] = field(default_factory=set)
+
+    def __getitem__(self, name: str) -> str:
+        """Return the C name of a name of the model."""
+        if name not in self._given:
+            self._given[name] = self._fresh(self.prefix + plain(name).replace(".", "_"))
+        return self._given[name]
+
+    def _fresh(self, wish: str) -> str:
+        text, number = wish, 2
+        while text in self._taken:
+            text, number = f"{wish}_{number}", number + 1
+        self._taken.add(text)
+        return text
+
+
+def mangled(prefix: str, names: Iterable[str]) -> Mangler:
+    """Return a mangler that has seen some names in this order."""
+    mangler = Mangler(prefix)
+    for name in names:
+        mangler[name]
+    return mangler

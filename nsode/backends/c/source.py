@@ -1,0 +1,100 @@
+"""PREFIX.c: the functions and tables of a model."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from nsode.backends.c import tables, work
+from nsode.backends.c.function import body
+from nsode.backends.c.header import prototypes
+from nsode.backends.c.helpers import need_math, with_helpers
+from nsode.backends.c.program import Program
+from nsode.backends.c.step import finish, step
+from nsode.integrators import REGISTRY
+
+_STATE = "real t, const real *x, const real *u, const real *p"
+
+
+def source(program: Program) -> str:
+    """Return the text of the source file."""
+    sections = [*_cores(program), *_interface(program), *_steps(program)]
+    constants = [tables.parameters(program), *tables.names(program)]
+    head = [_includes(program), *with_helpers(program.used, program.single)]
+    return "\n".join([*head, *sections, *constants])
+
+
+def _includes(program: Program) -> str:
+    math = "#include <math.h>\n\n" if need_math(program.used) else ""
+    return f"""\
+/* Written by nsode: the augmented ODE of a model, in plain C. */
+#include "{program.prefix}.h"
+
+{math}typedef {program.prefix}_real real;
+"""
+
+
+def _cores(program: Program) -> list[str]:
+    """Return what the functions of the interface share."""
+    ok = f"    return {program.prefix}_OK;"
+    rates = [*body(program, work.rates(program)), ok]
+    cores = [_function(f"static inline int rates({_STATE}, real *dx)", rates)]
+    if program.checks:
+        checks = [*body(program, work.checks(program)), ok]
+        check = _function(f"static int check({_STATE})", checks)
+        cores.append(f"#ifdef {program.prefix}_CHECKS\n{check}#endif\n")
+    return cores
+
+
+def _interface(program: Program) -> list[str]:
+    ok = f"    return {program.prefix}_OK;"
+    heads = prototypes(program)
+    start: list[str] = []
+    for phase in work.start(program):
+        start += _block(body(program, phase))
+    return [
+        _function(heads["rhs"], [*_guard(program), "    return rates(t, x, u, p, dx);"]),
+        _function(heads["out"], [*body(program, work.outputs(program)), ok]),
+        _function(heads["init"], [*start, ok]),
+    ]
+
+
+def _steps(program: Program) -> list[str]:
+    heads = prototypes(program)
+    return [
+        finish(program),
+        *(
+            _function(heads[f"step_{name}"], [*_guard(program), *step(scheme, program)])
+            for name, scheme in REGISTRY.items()
+        ),
+    ]
+
+
+def _guard(program: Program) -> list[str]:
+    """Return the call of the checks."""
+    if not program.checks:
+        return []
+    return [
+        f"#ifdef {program.prefix}_CHECKS",
+        "    const int broken = check(t, x, u, p);",
+        "    if (broken) {",
+        "        return broken;",
+        "    }",
+        "#endif",
+    ]
+
+
+def _block(lines: Sequence[str]) -> list[str]:
+    return ["    {", *(f"    {line}" for line in lines), "    }"]
+
+
+def _function(head: str, lines: Sequence[str]) -> str:
+    """Return a function; arguments that its body does not use are named as such."""
+    text = "\n".join(lines)
+    arguments = (part.split()[-1].lstrip("*") for part in head.split("(")[1].rstrip(")").split(","))
+    unused = [f"    (void){name};" for name in arguments if not _mentions(text, name)]
+    return "\n".join([head, "{", *unused, *lines, "}", ""])
+
+
+def _mentions(text: str, name: str) -> bool:
+    return re.search(rf"\b{name}\b", text) is not None

@@ -1,0 +1,141 @@
+"""What each generated function has to compute, in an order that computes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from itertools import chain
+from math import nan
+
+from nsode.backends.c.plan import Require, Store, Work, exprs
+from nsode.backends.c.program import Program, Vector
+from nsode.expr import TIME, Expr, IndexRange, Name, Number, rebuild
+from nsode.ode import Binding, LinearSolve, State
+from nsode.passes.prune import defines, expressions, needed, reads
+from nsode.passes.split import pieces
+
+
+def rates(program: Program) -> list[Work]:
+    """Return the work of ``dx``."""
+    stores = [
+        _store(program, program.x, "dx", rate.state, rate.value, rate.range)
+        for rate in program.ode.rates
+    ]
+    return _with_bindings(program, stores)
+
+
+def outputs(program: Program) -> list[Work]:
+    """Return the work of ``y``."""
+    stores = chain.from_iterable(
+        _stores(program, program.y, "y", item.name, item.value) for item in program.ode.outputs
+    )
+    return _with_bindings(program, tuple(stores))
+
+
+def checks(program: Program) -> list[Work]:
+    """Return the work that finds the first broken check; its number is in the status."""
+    require = [
+        Require(check.condition, f"{program.prefix}_BROKEN + {number}", check.range)
+        for number, check in program.checks
+    ]
+    return _with_bindings(program, require)
+
+
+def start(program: Program) -> list[list[Work]]:
+    """Return the work of ``x`` at the start, in phases: each reads the states before it.
+
+    The time is zero there, and inputs have their defaults.
+    """
+    return [
+        [
+            _map(work, lambda expr: _at_start(expr, program))
+            for work in _with_bindings(
+                program,
+                [
+                    store
+                    for state in phase
+                    for store in _stores(program, program.x, "x", state.name, state.initial)
+                ],
+            )
+        ]
+        for phase in _phases(program)
+    ]
+
+
+def _phases(program: Program) -> list[list[State]]:
+    behind: dict[str, set[str]] = {}
+    for item in program.ode.bindings:
+        read = reads(*expressions(item))
+        for name in defines(item):
+            behind.setdefault(name, set()).update(
+                chain.from_iterable(behind.get(other, {other}) for other in read)
+            )
+    waiting = {
+        state.name: {
+            name
+            for read in reads(state.initial)
+            for name in behind.get(read, {read})
+            if name in program.x.slots
+        }
+        for state in program.ode.states
+    }
+    phases: list[list[State]] = []
+    left = list(program.ode.states)
+    while left:
+        ready = [state for state in left if not waiting[state.name] & {s.name for s in left}]
+        if not ready:
+            raise ValueError(f"`{left[0].name}` at the start depends on itself")
+        phases.append(ready)
+        left = [state for state in left if state not in ready]
+    return phases
+
+
+def _at_start(expr: Expr, program: Program) -> Expr:
+    match expr:
+        case Name(id) if id == TIME:
+            return Number(0.0)
+        case Name(id) if id in program.u.slots:
+            default = next(item.default for item in program.ode.inputs if item.name == id)
+            return Number(nan if default is None else default)
+        case _:
+            return rebuild(expr, lambda child: _at_start(child, program))
+
+
+def _map(work: Work, change: Callable[[Expr], Expr]) -> Work:
+    match work:
+        case Binding(value=value) | Store(value=value):
+            return replace(work, value=change(value))
+        case LinearSolve(matrix=matrix, right=right):
+            rows = tuple(tuple(map(change, row)) for row in matrix)
+            return replace(work, matrix=rows, right=tuple(map(change, right)))
+        case Require(condition=condition):
+            return replace(work, condition=change(condition))
+
+
+def _with_bindings(program: Program, works: Sequence[Store | Require]) -> list[Work]:
+    wanted = reads(*chain.from_iterable(exprs(work) for work in works))
+    found: list[Work] = []
+    for item in needed(program.ode.bindings, wanted):
+        if not isinstance(item, Binding | LinearSolve):
+            raise NotImplementedError(f"no C for {type(item).__name__}")
+        found.append(item)
+    return [*found, *works]
+
+
+def _stores(
+    program: Program, vector: Vector, array: str, name: str, value: Expr
+) -> Iterator[Store]:
+    over = vector.slots[name].range
+    if over is None:
+        yield _store(program, vector, array, name, value, None)
+        return
+    for piece, (part,) in pieces(over, value):
+        yield _store(program, vector, array, name, part, piece)
+
+
+def _store(
+    program: Program, vector: Vector, array: str, name: str, value: Expr, over: IndexRange | None
+) -> Store:
+    family = vector.slots[name].range
+    first = 0 if family is None else family.first
+    return Store(array, program.enumerator(vector, name), value, over, first)
