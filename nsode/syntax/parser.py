@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
-from importlib.resources import files
+from pkgutil import get_data
 from typing import Any, cast
 
 from lark import Lark
@@ -26,7 +26,9 @@ from nsode.syntax.unexpected import Slip, explain
 
 def grammar() -> str:
     """Return the text of the grammar."""
-    return files("nsode.grammar").joinpath("di.lark").read_text(encoding="utf-8")
+    text = get_data("nsode.grammar", "di.lark")
+    assert text is not None
+    return text.decode()
 
 
 class _NoLexer(Lexer):

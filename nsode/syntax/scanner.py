@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from nsode.diagnostics import Diagnostic
 from nsode.source import Source, Span
-from nsode.syntax import slips
+from nsode.syntax import literals, slips
 from nsode.syntax.limits import Limits
 from nsode.syntax.tokens import Token, Vocabulary
 from nsode.syntax.words import FILE_KEYWORDS, STATEMENT_KEYWORDS
@@ -68,11 +68,13 @@ class _Scanner:
                 piece = piece._replace(type=self.vocabulary.symbols[piece.text])
                 self._symbol(piece)
             case "NUMBER":
-                self._report(slips.malformed_number(self.text, piece.span))
+                self._report(literals.unsound_number(piece))
+            case "malformed":
+                self._report(literals.malformed_number(piece))
             case "NAME":
                 self._report(slips.name_too_long(piece, self.limits.name))
             case "UNIT":
-                self._report(slips.malformed_unit(piece))
+                self._report(literals.malformed_unit(piece))
             case "string":
                 self._report(slips.string(piece))
             case "underscore":

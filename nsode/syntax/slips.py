@@ -1,11 +1,10 @@
-"""What is wrong with single characters, numbers, names, units and brackets."""
+"""What is wrong with single characters, names and brackets."""
 
 from __future__ import annotations
 
 import re
 import unicodedata
 from collections.abc import Sequence
-from math import isinf
 
 from nsode.diagnostics import Diagnostic, Label
 from nsode.source import Span
@@ -56,9 +55,11 @@ def foreign(piece: Token, before: Sequence[Token]) -> Diagnostic:
     span = Span(piece.start, piece.start + 1)
     name = unicodedata.name(character, "control character")
     code = f"U+{ord(character):04X}"
-    if not character.isprintable() or unicodedata.category(character) in ("Mn", "Zs"):
+    category = unicodedata.category(character)
+    if not character.isprintable() or category in ("Mn", "Zs"):
         message = f"{code} {name} cannot be seen and is not part of the language"
-        return Diagnostic("NS002", message, (Label(span, "in this place"),), help="delete it")
+        help_ = "write an ordinary space" if category == "Zs" else "delete it"
+        return Diagnostic("NS002", message, (Label(span),), help=help_)
     message = f"`{character}` ({code} {name}) is not part of the language"
     return Diagnostic("NS002", message, (Label(span),), help=_in_ascii(character, name))
 
@@ -68,10 +69,12 @@ def _in_ascii(character: str, name: str) -> str:
         return f"write `{_LOOKALIKES[character]}`"
     if greek := _GREEK.match(name):
         word = greek[2].lower()
-        return f"names are ASCII: write `{word if greek[1] == 'SMALL' else word.capitalize()}"
+        return f"names are ASCII: write `{word if greek[1] == 'SMALL' else word.capitalize()}`"
     plain = unicodedata.normalize("NFKC", character)
     if plain.isascii():
         return f"it only looks like `{plain}`; write the ASCII character"
+    if (base := unicodedata.normalize("NFD", character)[0]).isascii():
+        return f"names are ASCII: write `{base}`"
     return "names and operators are ASCII; any text may stand in a comment, behind `#`"
 
 
@@ -116,95 +119,6 @@ def name_too_long(name: Token, limit: int) -> Diagnostic | None:
         return None
     message = f"the name {short(name.text)} has {len(name.text)} characters"
     return Diagnostic("NS010", message, (Label(name.span, f"at most {limit} are allowed"),))
-
-
-# numbers
-
-_REST = re.compile(r"[A-Za-z0-9_]|\.(?!\.)")
-_ALL = re.compile(r"[A-Za-z0-9_.]+")
-
-
-def malformed_number(text: str, span: Span) -> Diagnostic | None:
-    """Return the error for the number at ``span``; None where it is sound."""
-    literal = text[span.start : span.end]
-    if _REST.match(text, span.end):
-        return _number_runs_on(text, span)
-    if len(literal) > 1 and literal[0] == "0" and literal[1].isdigit():
-        plain = literal.lstrip("0")
-        plain = plain if plain and plain[0].isdigit() else "0" + plain
-        return _number(
-            f"{short(literal)} begins with a zero, which means octal in C",
-            span,
-            f"write {short(plain)}",
-        )
-    value = float(literal)
-    if isinf(value):
-        return _number(
-            f"{short(literal)} is too large for a double",
-            span,
-            "the largest is about 1.8e308",
-        )
-    if value == 0 and re.search(r"[1-9]", re.split("[eE]", literal)[0]):
-        return _number(
-            f"{short(literal)} is zero as a double",
-            span,
-            "the smallest is about 2.2e-308; write `0` where zero is meant",
-        )
-    if 0 < value < 2.2250738585072014e-308:
-        return _number(
-            f"{short(literal)} is subnormal: a double holds it with fewer digits",
-            span,
-            "the smallest full double is about 2.2e-308",
-        )
-    return None
-
-
-def _number_runs_on(text: str, span: Span) -> Diagnostic:
-    whole = _ALL.match(text, span.start)
-    end = whole.end() if whole else span.end
-    literal, rest = text[span.start : span.end], text[span.end : end]
-    span = Span(span.start, end)
-    if literal == "0" and rest[0] in "xXbBoO":
-        return _number(f"{short(literal + rest)} is not decimal", span, "write it in decimal")
-    if rest[0] == "." or rest[0].isdigit():
-        return _number(f"{short(literal + rest)} has two decimal points", span, None)
-    if rest in ("e", "E"):
-        return _number(f"`{literal}{rest}` lacks its exponent", span, f"write `{literal}e3`")
-    return _number(
-        f"{short(literal + rest)} is neither a number nor a name",
-        span,
-        f"write {short(literal)}*{short(rest)} for a product; a name begins with a letter",
-    )
-
-
-def _number(message: str, span: Span, help_: str | None) -> Diagnostic:
-    return Diagnostic("NS003", message, (Label(span),), help=help_)
-
-
-# units
-
-_UNIT = re.compile(
-    r"\s*(?:(?:[A-Za-z_][A-Za-z0-9_]*|[0-9]+(?:\.[0-9]+)?|[*/^()]|-(?=\s*[0-9]))\s*)*"
-)
-
-
-def malformed_unit(unit: Token) -> Diagnostic | None:
-    """Return the error for a unit in braces; None where its characters are sound."""
-    inner = unit.text[1:-1]
-    match = _UNIT.match(inner)
-    sound = match.end() if match else 0
-    example = "a unit is written like `{N/m}`, `{kg*m/s^2}` or `{1}`"
-    if not inner.strip():
-        return Diagnostic("NS008", "empty unit", (Label(unit.span),), help=example)
-    if sound == len(inner):
-        return None
-    place = unit.start + 1 + sound
-    return Diagnostic(
-        "NS008",
-        f"`{inner[sound]}` has no place in a unit",
-        (Label(Span(place, place + 1)),),
-        help=example,
-    )
 
 
 # brackets and depth

@@ -36,7 +36,8 @@ class Vocabulary:
         The fixed text of a terminal, by its name.
     pattern
         Matches one token; the name of the group is its kind. What begins no token
-        is cut into strings, words with a leading underscore, and single characters.
+        is cut into malformed numbers, strings, words with a leading underscore, and
+        stray characters.
     """
 
     def __init__(self, terminals: Iterable[TerminalDef]) -> None:
@@ -49,7 +50,8 @@ class Vocabulary:
         self.pattern = re.compile(
             rf"(?P<skip>[ \t]+|{patterns['COMMENT']})"
             rf"|(?P<NAME>{patterns['NAME']})"
-            rf"|(?P<NUMBER>{patterns['NUMBER']})"
+            rf"|(?P<NUMBER>{patterns['NUMBER']})(?![A-Za-z0-9_]|\.(?!\.))"
+            r"|(?P<malformed>\.?[0-9](?:[eE][+-](?=[0-9])|[A-Za-z0-9_]|\.(?!\.))*)"
             rf"|(?P<UNIT>{patterns['UNIT']})"
             rf"|(?P<INEQUALITY>{patterns['INEQUALITY']})"
             rf"|(?P<EQUALITY>{patterns['EQUALITY']})"

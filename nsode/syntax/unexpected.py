@@ -147,6 +147,8 @@ def _decimal_comma(slip: Slip) -> str | None:
     if slip.type != "COMMA" or slip.last is None or slip.last.type != "NUMBER" or not slip.after:
         return None
     digits = slip.after[0].text
+    if "RSQB" in slip.accepted:
+        return None
     return f"write `{slip.last.text}.{digits}`" if digits.isdigit() else None
 
 
@@ -258,8 +260,8 @@ def _continued(slip: Slip) -> str | None:
 _HINTS: tuple[Callable[[Slip], str | None], ...] = (
     _decimal_comma,
     _comma,
-    _conditional,
     _comparison,
+    _conditional,
     _power,
     _comment,
     _unit,

@@ -1,0 +1,3 @@
+model m
+state step = 1
+parameter include = 2

@@ -1,0 +1,4 @@
+model m
+state p = 1
+let f = (if p = 0 then 1 else 2)
+der(p) = f

@@ -1,0 +1,5 @@
+model m
+constant n = 3
+state x[i in 1..n] = 0
+for i in 1..n:
+    der(x[i]) = 0

@@ -1,0 +1,2 @@
+model m
+parameter μ = 0.1

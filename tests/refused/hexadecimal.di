@@ -1,0 +1,2 @@
+model m
+parameter K = 0x10

@@ -1,0 +1,3 @@
+model m
+var p = 0
+der(p) = 0

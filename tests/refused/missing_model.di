@@ -1,0 +1,3 @@
+parameter M = 1
+state p = 0
+der(p) = 0

@@ -1,0 +1,4 @@
+model m
+paramter M = 1
+state p = 0
+der(p) = 0

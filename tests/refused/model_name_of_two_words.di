@@ -1,0 +1,3 @@
+model rolling sphere
+state p = 0
+der(p) = 0

@@ -1,0 +1,3 @@
+model
+state p = 0
+der(p) = 0

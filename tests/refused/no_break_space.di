@@ -1,0 +1,2 @@
+model m
+parameter M = 1

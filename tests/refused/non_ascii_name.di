@@ -1,0 +1,2 @@
+model m
+parameter größe = 1

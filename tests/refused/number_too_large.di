@@ -1,0 +1,2 @@
+model m
+parameter K = 1e309

@@ -1,0 +1,3 @@
+model m
+state p = 1
+p' = -p

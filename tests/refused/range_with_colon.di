@@ -1,0 +1,3 @@
+model m
+constant n = 3
+state x[i in 1:n] = 0

@@ -1,0 +1,2 @@
+model m
+parameter K = 4.9e-324

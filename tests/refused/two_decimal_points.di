@@ -1,0 +1,2 @@
+model m
+parameter K = 1.2.3

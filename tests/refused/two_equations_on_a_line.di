@@ -1,0 +1,4 @@
+model m
+state p = 1
+state v = 1
+der(p) = v, der(v) = 0

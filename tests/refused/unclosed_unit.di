@@ -1,0 +1,4 @@
+model m
+parameter M = 1 {kg
+state p = 1
+der(p) = -M*p
