@@ -155,7 +155,9 @@ def _render_one(diagnostic: Diagnostic, source: Source | None, color: bool) -> s
         for label, position in zip(diagnostic.labels, positions, strict=True):
             primary = label is diagnostic.labels[0]
             style = _COLORS[diagnostic.severity] if primary else "36"
-            lines.extend(_excerpt(label, source, position.line, position.column, width, style, color))
+            lines.extend(
+                _excerpt(label, source, position.line, position.column, width, style, color)
+            )
     lines.extend(f"{' ' * width} = note: {note}" for note in diagnostic.notes)
     if diagnostic.help is not None:
         lines.append(f"{' ' * width} = help: {diagnostic.help}")

@@ -123,6 +123,11 @@ class SetValuedTerm:
     approximation: Approximation = Approximation()
     span: Span = field(default=NOWHERE, compare=False, kw_only=True)
 
+    @property
+    def suffixes(self) -> tuple[str, ...]:
+        """What stands behind a name for each component: nothing for a scalar."""
+        return ("",) if len(self.argument) == 1 else (".x", ".y", ".z")[: len(self.argument)]
+
 
 @dataclass(frozen=True, slots=True)
 class Rate:

@@ -69,7 +69,9 @@ def scalar(expr: Expr, scope: Scope, what: str) -> Expr:
     """
     value = elaborate(expr, scope)
     if not isinstance(value, Expr):
-        raise refuse("NS105", f"{what} must be a scalar", expr.span, f"this is {describe(shape(value))}")
+        raise refuse(
+            "NS105", f"{what} must be a scalar", expr.span, f"this is {describe(shape(value))}"
+        )
     return number(value, what)
 
 
@@ -164,8 +166,10 @@ def _bracket(expr: Expr, items: tuple[Expr, ...], scope: Scope) -> Value:
 
 
 def _subscript(expr: Subscript, scope: Scope) -> Value:
-    if isinstance(expr.base, Name) and expr.base.id not in scope.indices and (
-        expr.base.id not in {TIME, "pi"}
+    if (
+        isinstance(expr.base, Name)
+        and expr.base.id not in scope.indices
+        and (expr.base.id not in {TIME, "pi"})
     ):
         symbol = scope.symbols.find(expr.base.id, expr.base.span, also=scope.indices)
         if symbol.range is not None:
@@ -207,7 +211,13 @@ def _component(expr: Component, scope: Scope) -> Value:
         help = "a vector of 2 or 3 has `.x .y .z`"
         if isinstance(base, tuple) and len(base) > 3:
             help = "write `[1]` to `[" + str(len(base)) + "]`; quaternions have the scalar first"
-        raise refuse("NS105", f"there is no component `.{expr.field}`", expr.span, f"this is {what}", help=help)
+        raise refuse(
+            "NS105",
+            f"there is no component `.{expr.field}`",
+            expr.span,
+            f"this is {what}",
+            help=help,
+        )
     return base[k - 1]
 
 
@@ -236,15 +246,17 @@ def _reduction(expr: Reduction, scope: Scope) -> Value:
 
 def _call(expr: Call, scope: Scope) -> Value:
     if expr.function not in FUNCTIONS and expr.function not in CALLABLE:
-        raise ModelError([
-            Diagnostic(
-                "NS104",
-                f"there is no function `{expr.function}`",
-                (Label(expr.span, "unknown function"),),
-                notes=("the functions are " + ", ".join(known_functions()),),
-                help=suggest(expr.function, CALLABLE),
-            )
-        ])
+        raise ModelError(
+            [
+                Diagnostic(
+                    "NS104",
+                    f"there is no function `{expr.function}`",
+                    (Label(expr.span, "unknown function"),),
+                    notes=("the functions are " + ", ".join(known_functions()),),
+                    help=suggest(expr.function, CALLABLE),
+                )
+            ]
+        )
     if expr.function == "der":
         return scope.derivative(expr, scope)
     args = tuple(elaborate(arg, scope) for arg in expr.args)
@@ -266,9 +278,11 @@ def _apply(expr: Call, args: tuple[Value, ...]) -> Value:
             return replace(result, span=expr.span) if isinstance(result, Expr) else result
         case "/", (left, Expr() as right):
             return each(
-                lambda part: part
-                if values.is_zero(part) and not isinstance(left, Expr)
-                else Call("/", (number(part), number(right)), span=expr.span),
+                lambda part: (
+                    part
+                    if values.is_zero(part) and not isinstance(left, Expr)
+                    else Call("/", (number(part), number(right)), span=expr.span)
+                ),
                 left,
             )
         case "/", _:
@@ -294,14 +308,20 @@ def _scalar_function(expr: Call, args: tuple[Value, ...]) -> Expr:
     chained = name in {"min", "max"} and len(args) >= 2
     if wanted is not None and len(args) != wanted and not chained:
         plural = "argument" if wanted == 1 else "arguments"
-        raise refuse("NS110", f"`{name}` takes {wanted} {plural}", expr.span, f"here it has {len(args)}")
+        raise refuse(
+            "NS110", f"`{name}` takes {wanted} {plural}", expr.span, f"here it has {len(args)}"
+        )
     flat: list[Expr] = []
     for arg, written in zip(args, expr.args, strict=True):
         if not isinstance(arg, Expr):
-            raise refuse("NS105", f"`{name}` takes scalars", written.span, f"this is {describe(shape(arg))}")
+            raise refuse(
+                "NS105", f"`{name}` takes scalars", written.span, f"this is {describe(shape(arg))}"
+            )
         if name in {"and", "or", "not"}:
             if not is_condition(arg):
-                raise refuse("NS117", f"`{name}` takes conditions", written.span, "this is a number")
+                raise refuse(
+                    "NS117", f"`{name}` takes conditions", written.span, "this is a number"
+                )
         else:
             number(arg, f"an argument of `{name}`")
         flat.append(arg)

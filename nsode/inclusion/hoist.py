@@ -16,7 +16,15 @@ from typing import Literal, NamedTuple
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
 from nsode.expr import Call, Expr, If, Name, Number
 from nsode.source import Span
-from nsode.syntax.ast import Bracket, Component, Group, Identifier, RangeSyntax, Reduction, Subscript
+from nsode.syntax.ast import (
+    Bracket,
+    Component,
+    Group,
+    Identifier,
+    RangeSyntax,
+    Reduction,
+    Subscript,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,9 +196,7 @@ class Hoister:
         name = multiplier = f"{kind}@{call.span.start}"
         if outermost and self._force is not None:
             name, multiplier = self._force.text, f"{self._force.text}.lambda"
-        term = RawTerm(
-            name, kind, argument, factor, multiplier, self._range, span, not outermost
-        )
+        term = RawTerm(name, kind, argument, factor, multiplier, self._range, span, not outermost)
         self.terms.append(term)
         if outermost:
             self._outermost.append(term)
@@ -198,14 +204,16 @@ class Hoister:
 
     def _second(self, span: Span) -> ModelError:
         assert self._force is not None
-        return ModelError([
-            Diagnostic(
-                "NS205",
-                f"the force `{self._force.text}` holds more than one set-valued term",
-                (Label(span, "a second one"), Label(self._outermost[0].span, "the first")),
-                help="give each a `force` of its own and add them in a `let`",
-            )
-        ])
+        return ModelError(
+            [
+                Diagnostic(
+                    "NS205",
+                    f"the force `{self._force.text}` holds more than one set-valued term",
+                    (Label(span, "a second one"), Label(self._outermost[0].span, "the first")),
+                    help="give each a `force` of its own and add them in a `let`",
+                )
+            ]
+        )
 
     @contextmanager
     def _deeper(self) -> Iterator[None]:

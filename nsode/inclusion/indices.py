@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from nsode.diagnostics import refuse, suggest
 from nsode.expr import Call, Expr, Index, IndexRange, Name, Number
 from nsode.inclusion.symbols import Scope, check_free
@@ -140,5 +138,3 @@ def _sum(terms: list[tuple[str | None, int] | None]) -> tuple[str | None, int] |
         variable = term[0] if term[0] is not None else variable
         offset += term[1]
     return variable, offset
-
-

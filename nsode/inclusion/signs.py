@@ -38,13 +38,14 @@ _ODD = {"sinh", "tanh", "atan", "asin"}
 class Prover:
     """Proves signs over the bindings of one model.
 
-    ``facts`` maps the number of a value (see :class:`Numbering`) to what was assumed or
-    declared of it; ``nonnegative`` are the multipliers of dio terms.
+    ``facts`` maps the number of a value (see :class:`Numbering`) to what was assumed of
+    it, ``bounds`` a name to what was declared; ``nonnegative`` are dio's multipliers.
     """
 
     numbering: Numbering
     parameters: Mapping[str, Parameter]
     facts: dict[int, set[Goal]] = field(default_factory=dict)
+    bounds: dict[str, set[Goal]] = field(default_factory=dict)
     nonnegative: set[str] = field(default_factory=set)
     _known: dict[tuple[str, Goal], Proof | None] = field(default_factory=dict)
     _seen: dict[tuple[int, Goal], Proof | None] = field(default_factory=dict)
@@ -98,6 +99,8 @@ class Prover:
     def _name(self, expr: Name, goal: Goal) -> Proof | None:
         if expr.id in self.nonnegative:
             return _NOTHING if goal == ">=" else None
+        if any(known in self.bounds.get(expr.id, ()) for known in _IMPLIES[goal]):
+            return _NOTHING
         parameter = self.parameters.get(expr.id)
         if parameter is not None:
             held = all(_holds(value, goal) for value in parameter.values)
@@ -142,9 +145,7 @@ class Prover:
         beside_up: Goal = ">" if function == "/" else up
         beside_down: Goal = "<" if function == "/" else down
         if goal in {">", ">="}:
-            return self._any(
-                ((left, up), (right, beside_up)), ((left, down), (right, beside_down))
-            )
+            return self._any(((left, up), (right, beside_up)), ((left, down), (right, beside_down)))
         return self._any(((left, down), (right, beside_up)), ((left, up), (right, beside_down)))
 
     def _same(self, left: Expr, right: Expr) -> bool:
@@ -187,5 +188,3 @@ def _holds(value: float, goal: Goal) -> bool:
         case "<=":
             return value <= 0
     return value < 0
-
-

@@ -17,8 +17,11 @@ VECTOR_FUNCTIONS = {"dot", "cross", "transpose", "qmul"}
 SET_VALUED = {"dio", "sgn"}
 _INTERNAL = {"shrink", "sat"}
 CALLABLE = (
-    {name for name in FUNCTIONS if name.isalnum()} - {"neg", "and", "or", "not"} - _INTERNAL
-) | VECTOR_FUNCTIONS | SET_VALUED | {"der"}
+    ({name for name in FUNCTIONS if name.isalnum()} - {"neg", "and", "or", "not"} - _INTERNAL)
+    | VECTOR_FUNCTIONS
+    | SET_VALUED
+    | {"der"}
+)
 
 Derivative = Callable[["Call", "Scope"], Value]
 
@@ -59,14 +62,19 @@ class Symbols:
         """
         check_free(name, span)
         if name in self.declared:
-            raise ModelError([
-                Diagnostic(
-                    "NS102",
-                    f"`{name}` is defined twice",
-                    (Label(span, "defined again here"), Label(self.declared[name], "first here")),
-                    help="rename one of them",
-                )
-            ])
+            raise ModelError(
+                [
+                    Diagnostic(
+                        "NS102",
+                        f"`{name}` is defined twice",
+                        (
+                            Label(span, "defined again here"),
+                            Label(self.declared[name], "first here"),
+                        ),
+                        help="rename one of them",
+                    )
+                ]
+            )
         self.declared[name] = span
 
     def define(self, symbol: Symbol) -> None:
@@ -90,14 +98,16 @@ class Symbols:
         if name in self.declared:
             raise Poisoned
         near = suggest(name, [*self.declared, *also])
-        raise ModelError([
-            Diagnostic(
-                "NS101",
-                f"`{name}` is not defined",
-                (Label(span, "nothing has this name"),),
-                help=near or f"declare it, for example `parameter {name} = 1`",
-            )
-        ])
+        raise ModelError(
+            [
+                Diagnostic(
+                    "NS101",
+                    f"`{name}` is not defined",
+                    (Label(span, "nothing has this name"),),
+                    help=near or f"declare it, for example `parameter {name} = 1`",
+                )
+            ]
+        )
 
 
 def check_free(name: str, span: Span) -> None:
@@ -110,15 +120,18 @@ def check_free(name: str, span: Span) -> None:
     """
     reason = _reserved(name)
     if reason is not None:
-        raise ModelError([
-            Diagnostic(
-                "NS103",
-                f"`{name}` cannot be declared: {reason}",
-                (Label(span, "reserved"),),
-                help=f"choose another name, for example `{name}1`" if name != "t" else
-                "choose another name, for example `time`",
-            )
-        ])
+        raise ModelError(
+            [
+                Diagnostic(
+                    "NS103",
+                    f"`{name}` cannot be declared: {reason}",
+                    (Label(span, "reserved"),),
+                    help=f"choose another name, for example `{name}1`"
+                    if name != "t"
+                    else "choose another name, for example `time`",
+                )
+            ]
+        )
 
 
 def _reserved(name: str) -> str | None:
@@ -165,4 +178,3 @@ class Scope:
 def known_functions() -> list[str]:
     """Return the names of all functions of the language."""
     return sorted(CALLABLE)
-

@@ -185,8 +185,7 @@ def qmul(left: Value, right: Value) -> Value:
     """Return the product of two quaternions, scalar first."""
     if shape(left) != (4,) or shape(right) != (4,):
         raise ShapeError(
-            f"qmul wants two vectors of 4, not {describe(shape(left))} "
-            f"and {describe(shape(right))}"
+            f"qmul wants two vectors of 4, not {describe(shape(left))} and {describe(shape(right))}"
         )
     a, b = scalars(left), scalars(right)
     signs = ((1, -1, -1, -1), (1, 1, 1, -1), (1, -1, 1, 1), (1, 1, -1, 1))

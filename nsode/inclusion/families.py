@@ -1,0 +1,103 @@
+"""Families: lists over an index, and subscripts that must stay in range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from nsode.diagnostics import ModelError, refuse
+from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, children
+from nsode.ode import Definition, LinearSolve, Placed, SetValuedTerm
+from nsode.passes.split import pieces, settle
+
+
+def choose(items: list[Expr], over: IndexRange) -> Expr:
+    """Return the item that belongs to the index of ``over``, as a chain of conditions."""
+    result = items[-1]
+    for k in range(len(items) - 2, -1, -1):
+        here = Call("==", (Index(over.variable), Number(float(over.first + k))))
+        result = If(here, items[k], result, span=items[k].span)
+    return result
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """Refuses subscripts outside the range of their family; ``ranges`` has every family."""
+
+    ranges: Mapping[str, IndexRange]
+
+    def check(self, exprs: Iterable[Expr], over: IndexRange | None) -> None:
+        """Check expressions that stand together under one index range.
+
+        An ``if`` on indices alone is decided first: its dead branch may be out of range.
+
+        Raises
+        ------
+        ModelError
+            NS109.
+        """
+        for expr in exprs:
+            if over is None:
+                self._walk(settle(expr), {})
+            elif len(over):
+                for piece, (part,) in pieces(over, expr):
+                    self._walk(part, {piece.variable: piece})
+
+    def _walk(self, expr: Expr, indices: Mapping[str, IndexRange]) -> None:
+        match expr:
+            case Name(id, Index() as at) if id in self.ranges:
+                self._inside(expr, at, self.ranges[id], indices)
+            case Sum(over, body):
+                if len(over):
+                    self._walk(body, {**indices, over.variable: over})
+                return
+        for child in children(expr):
+            self._walk(child, indices)
+
+    def _inside(
+        self, expr: Name, at: Index, family: IndexRange, indices: Mapping[str, IndexRange]
+    ) -> None:
+        if at.variable is None:
+            low = high = at.offset
+        else:
+            over = indices[at.variable]
+            low, high = over.first + at.offset, over.last + at.offset
+        if low < family.first or high > family.last:
+            outside = low if low < family.first else high
+            raise _outside(expr, outside, family)
+
+
+def _outside(expr: Name, k: int, family: IndexRange) -> ModelError:
+    head = expr.id.partition(".")[0]
+    return refuse(
+        "NS109",
+        f"`{head}[{k}]` does not exist",
+        expr.span,
+        f"`{head}` goes from {family.first} to {family.last}",
+        help=f"shorten the range, or write `(if {family.variable} > {family.first} then ... else ...)`",
+    )
+
+
+def expressions(item: Definition) -> list[Expr]:
+    """Return every expression of a definition."""
+    match item:
+        case LinearSolve():
+            return [*item.right, *(entry for row in item.matrix for entry in row)]
+        case SetValuedTerm():
+            return [*item.argument, *(() if item.factor is None else (item.factor,))]
+    return [item.value]
+
+
+def defined(item: Definition) -> tuple[str, ...]:
+    """Return the names that a definition defines."""
+    match item:
+        case LinearSolve():
+            return item.unknowns
+        case SetValuedTerm():
+            return item.multiplier
+    return (item.name,)
+
+
+def ranges(items: Iterable[Placed]) -> dict[str, IndexRange]:
+    """Return the index range of every family among the items."""
+    return {item.name: item.range for item in items if item.range is not None}

@@ -1,0 +1,122 @@
+"""Equations as written become scalar rows, linear in the derivatives of the states."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from nsode.derivative import time_derivative
+from nsode.diagnostics import ModelError, refuse
+from nsode.expr import TIME, Call, Expr, Name, names
+from nsode.inclusion.definitions import Definitions
+from nsode.inclusion.elaborate import elaborate, number
+from nsode.inclusion.equations import Row, derivative_name, row
+from nsode.inclusion.indices import index_range
+from nsode.inclusion.report import Report
+from nsode.inclusion.review import Review
+from nsode.inclusion.symbols import Scope, Symbols
+from nsode.inclusion.values import Value, describe, each, from_scalars, scalars, shape
+from nsode.ode import Binding, DifferentialInclusion
+from nsode.source import Source
+from nsode.syntax import ast
+
+
+@dataclass(slots=True)
+class Rows:
+    """The equations of a model; ``bindings`` are derivatives of functions of time."""
+
+    symbols: Symbols
+    review: Review
+    definitions: Definitions
+    rows: list[Row] = field(default_factory=list)
+    bindings: dict[str, Binding] = field(default_factory=dict)
+    _written: list[ast.Equation] = field(default_factory=list)
+
+    def hoist(self, equation: ast.Equation) -> None:
+        """Take the set-valued terms out of an equation."""
+        hoister = self.definitions.hoister
+        self._written.append(
+            replace(
+                equation,
+                left=hoister.hoist(equation.left, equation.range),
+                right=hoister.hoist(equation.right, equation.range),
+            )
+        )
+
+    def elaborate(self, report: Report) -> None:
+        """Turn every equation into rows."""
+        for equation in self._written:
+            with report.collecting():
+                self._equation(equation)
+
+    def _equation(self, equation: ast.Equation) -> None:
+        scope = Scope(self.symbols, derivative=self._derivative)
+        over = index_range(equation.range, scope)
+        inner = scope.with_index(over)
+        left = each(number, elaborate(equation.left, inner))
+        right = each(number, elaborate(equation.right, inner))
+        if shape(left) != shape(right):
+            raise refuse(
+                "NS105",
+                f"the left side is {describe(shape(left))}, the right side {describe(shape(right))}",
+                equation.span,
+                help="both sides of an equation have one shape",
+            )
+        self.review.check(left)
+        self.review.check(right)
+        for one, other in zip(scalars(left), scalars(right), strict=True):
+            self.rows.append(row(one, other, over, equation.span))
+
+    def _derivative(self, call: Call, scope: Scope) -> Value:
+        if len(call.args) != 1:
+            raise refuse(
+                "NS110", "`der` takes one argument", call.span, f"here it has {len(call.args)}"
+            )
+        value = elaborate(call.args[0], scope)
+        parts = scalars(value)
+        if all(isinstance(part, Name) and self._is_state(part) for part in parts):
+            return from_scalars(tuple(_unknown(part, call) for part in parts), shape(value))
+        return each(lambda part: self._of_time(part, call), value)
+
+    def _is_state(self, name: Name) -> bool:
+        head = name.id.partition(".")[0].partition("[")[0]
+        symbol = self.symbols.known.get(head)
+        return symbol is not None and symbol.kind == "state"
+
+    def _of_time(self, expr: Expr, call: Call) -> Expr:
+        self._check_of_time(expr, call, set())
+        system = DifferentialInclusion(
+            "", Source("", ""), (), (), (), tuple(self.definitions.bindings), (), ()
+        )
+        emitted, value = time_derivative(system, expr)
+        for item in emitted:
+            assert isinstance(item, Binding)
+            self.bindings[item.name] = item
+        return value
+
+    def _check_of_time(self, expr: Expr, call: Call, seen: set[str]) -> None:
+        bindings = {binding.name: binding for binding in self.definitions.bindings}
+        for name in names(expr):
+            if name.id == TIME or name.id in seen:
+                continue
+            seen.add(name.id)
+            if name.id in bindings:
+                self._check_of_time(bindings[name.id].value, call, seen)
+                continue
+            symbol = self.symbols.known.get(name.id.partition(".")[0])
+            if symbol is None or symbol.kind != "parameter":
+                raise _no_function_of_time(name, call)
+
+
+def _unknown(part: Expr, call: Call) -> Name:
+    assert isinstance(part, Name)
+    return Name(derivative_name(part.id), part.at, span=call.span)
+
+
+def _no_function_of_time(name: Name, call: Call) -> ModelError:
+    return refuse(
+        "NS112",
+        "`der` takes a state, or a function of time alone",
+        call.span,
+        f"depends on `{name.id}`",
+        help="write its derivative out with the chain rule",
+    )

@@ -1,0 +1,208 @@
+"""``approximate`` and ``simulate``: constants of the laws and defaults of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
+from nsode.evaluate import evaluate
+from nsode.expr import Expr, Number, names
+from nsode.inclusion.elaborate import scalar
+from nsode.inclusion.symbols import Scope
+from nsode.inclusion.units import in_si
+from nsode.ode import Approximation, Run, SetValuedTerm
+from nsode.source import Span
+from nsode.syntax.ast import ApproximateStatement, Identifier, Setting, SimulateStatement
+
+#: Wishes, as opposed to constants of a law.
+TARGETS = (
+    "restitution",
+    "impact_speed",
+    "penetration",
+    "effective_mass",
+    "presliding",
+    "damping_ratio",
+)
+
+
+@dataclass(slots=True)
+class Approximations:
+    """What the model says of each element; ``elements`` maps every name of one to its own."""
+
+    elements: Mapping[str, SetValuedTerm]
+    scope: Scope
+    _own: dict[str, tuple[Approximation, Span]] = field(default_factory=dict)
+    _defaults: dict[str, tuple[Approximation, Span]] = field(default_factory=dict)
+
+    def add(self, statement: ApproximateStatement) -> None:
+        """Take in one statement.
+
+        Raises
+        ------
+        ModelError
+            NS304 for a name that is no element, NS305 for an element approximated twice.
+        """
+        approximation = self._approximation(statement)
+        if statement.default is not None:
+            self._store(self._defaults, statement.default, approximation, statement.span)
+        for name in statement.elements:
+            self._store(self._own, self._element(name).name, approximation, name.span)
+
+    def of(self, term: SetValuedTerm) -> Approximation:
+        """Return the approximation of an element: its own, its kind's, or the default."""
+        for known, key in ((self._own, term.name), (self._defaults, term.kind)):
+            if key in known:
+                return known[key][0]
+        return Approximation()
+
+    def _store(
+        self, into: dict[str, tuple[Approximation, Span]], key: str, new: Approximation, span: Span
+    ) -> None:
+        if key in into:
+            raise ModelError(
+                [
+                    Diagnostic(
+                        "NS305",
+                        f"`{key}` is approximated twice",
+                        (Label(span, "again here"), Label(into[key][1], "first here")),
+                        help="one element has one set of constants: remove one of the two",
+                    )
+                ]
+            )
+        into[key] = new, span
+
+    def _element(self, name: Identifier) -> SetValuedTerm:
+        if name.text in self.elements:
+            return self.elements[name.text]
+        elements = ", ".join(f"`{known}`" for known in self.elements) or "none"
+        raise ModelError(
+            [
+                Diagnostic(
+                    "NS304",
+                    f"`{name.text}` is no set-valued term",
+                    (Label(name.span, "nothing to approximate"),),
+                    notes=(f"the set-valued terms of this model are {elements}",),
+                    help=suggest(name.text, self.elements),
+                )
+            ]
+        )
+
+    def _approximation(self, statement: ApproximateStatement) -> Approximation:
+        seen: dict[str, Setting] = {}
+        found: list[tuple[str, Expr]] = []
+        for setting in statement.settings:
+            _check_new(setting, seen)
+            if isinstance(setting.value, Identifier):
+                raise refuse("NS303", f"`{setting.name.text}` wants a number", setting.span)
+            value = scalar(setting.value, self.scope, f"`{setting.name.text}`")
+            found.append((setting.name.text, in_si(value, setting.unit)))
+        return Approximation(
+            "xiong2013" if statement.law is None else statement.law.text,
+            tuple(item for item in found if item[0] not in TARGETS),
+            tuple(item for item in found if item[0] in TARGETS),
+            statement.at_equilibrium,
+            span=statement.span,
+        )
+
+
+def _check_new(setting: Setting, seen: dict[str, Setting]) -> None:
+    first = seen.setdefault(setting.name.text, setting)
+    if first is not setting:
+        raise ModelError(
+            [
+                Diagnostic(
+                    "NS102",
+                    f"`{setting.name.text}` is given twice",
+                    (Label(setting.span, "again here"), Label(first.span, "first here")),
+                    help="remove one of them",
+                )
+            ]
+        )
+
+
+def run(statements: Sequence[SimulateStatement], scope: Scope) -> tuple[Run, list[Diagnostic]]:
+    """Return the defaults of a run and what is to be said of them.
+
+    Raises
+    ------
+    ModelError
+        NS102 for a second statement or setting, NS501 for values out of range.
+    """
+    if not statements:
+        return Run(), []
+    if len(statements) > 1:
+        raise refuse("NS102", "`simulate` stands twice", statements[1].span, help="keep one")
+    statement = statements[0]
+    seen: dict[str, Setting] = {}
+    numbers: dict[str, float] = {}
+    method: str | None = None
+    for setting in statement.settings:
+        _check_new(setting, seen)
+        if isinstance(setting.value, Identifier):
+            method = setting.value.text
+        else:
+            numbers[setting.name.text] = _positive(setting, setting.value, scope)
+    found = Run(
+        numbers.get("duration"),
+        numbers.get("step"),
+        numbers.get("every"),
+        method,
+        span=statement.span,
+    )
+    return found, _remarks(found)
+
+
+def _positive(setting: Setting, value: Expr, scope: Scope) -> float:
+    what = setting.name.text
+    found = constant(in_si(scalar(value, scope, f"the {what}"), setting.unit), f"the {what}")
+    if not found > 0:
+        raise refuse(
+            "NS501",
+            f"the {what} of a run must be greater than 0",
+            setting.span,
+            f"this is {found:g}",
+        )
+    return found
+
+
+def constant(value: Expr, what: str) -> float:
+    """Return the value of an expression made of numbers alone.
+
+    Raises
+    ------
+    ModelError
+        NS111 if it reads a name.
+    """
+    for name in names(value):
+        raise refuse(
+            "NS111",
+            f"{what} must be made of numbers alone",
+            name.span,
+            "this is a name",
+            help="write the number, or use `let` for a derived quantity",
+        )
+    if isinstance(value, Number):
+        return value.value
+    return evaluate(value, _no_names)
+
+
+def _no_names(name: str, at: int | None) -> float:
+    raise AssertionError(name)
+
+
+def _remarks(found: Run) -> list[Diagnostic]:
+    if found.duration is None or found.step is None:
+        return []
+    steps = found.duration / found.step
+    if abs(steps - round(steps)) <= 1e-9 * steps:
+        return []
+    return [
+        Diagnostic(
+            "NS404",
+            f"the duration is {steps:.6g} steps long; a run takes {round(steps)}",
+            (Label(found.span),),
+            help="choose a duration that is a multiple of the step",
+            severity="note",
+        )
+    ]
