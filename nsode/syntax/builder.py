@@ -93,18 +93,20 @@ class Builder(Transformer[Any, Any]):
         return ast.Assumption(condition, span=self.statement)
 
     def declarator(
-        self, name: Token, range_: ast.RangeSyntax | None, *sizes: tuple[Expr, Token]
+        self,
+        name: Token,
+        family: tuple[ast.RangeSyntax, Token] | None,
+        *sizes: tuple[Expr, Token],
     ) -> ast.Declarator:
-        end = sizes[-1][1].end if sizes else range_.span.end + 1 if range_ else name.end
-        return ast.Declarator(
-            _declared(name),
-            range_,
-            tuple(size for size, _ in sizes),
-            span=Span(name.start, end),
-        )
+        range_, end = family or (None, name)
+        if sizes:
+            end = sizes[-1][1]
+        declared = _declared(name)
+        span = name.span.to(end.span)
+        return ast.Declarator(declared, range_, tuple(size for size, _ in sizes), span=span)
 
-    def family(self, range_: ast.RangeSyntax) -> ast.RangeSyntax:
-        return range_
+    def family(self, range_: ast.RangeSyntax, end: Token) -> tuple[ast.RangeSyntax, Token]:
+        return range_, end
 
     def size(self, size: Expr, end: Token) -> tuple[Expr, Token]:
         return size, end

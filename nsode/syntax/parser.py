@@ -67,7 +67,7 @@ class Parser:
         state = self.lark.parse_interactive()
         try:
             for token in statement.tokens:
-                fed.append(self._as_keyword(token, state))
+                fed.append(self.as_keyword(token, state))
                 state.feed_token(cast(Any, fed[-1]))
             return cast(ast.Statement, state.feed_eof())  # type: ignore[no-untyped-call]
         except UnexpectedToken as error:
@@ -76,7 +76,7 @@ class Parser:
             slip = Slip(fed, bad, rest, self._expected(fed))
             raise ModelError([explain(slip, self.vocabulary.texts)]) from None
 
-    def _as_keyword(self, token: Token, state: InteractiveParser) -> Token:
+    def as_keyword(self, token: Token, state: InteractiveParser) -> Token:
         """Make a word a keyword where one may stand, or where an operand may stand."""
         if token.type != "NAME" or token.text not in self.vocabulary.keywords:
             return token
