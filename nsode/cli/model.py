@@ -40,8 +40,7 @@ def load(argument: str) -> Model:
     """
     from nsode import compiler
 
-    source = source_of(argument)
-    return compiler.loads(source.text, source.name)
+    return compiler.compile_source(source_of(argument))
 
 
 def summary(model: Model) -> str:

@@ -94,7 +94,7 @@ def test_a_misspelt_command_draws_a_suggestion(capsys):
 
 
 def test_an_unexpected_exception_is_one_line_and_no_traceback(monkeypatch, sound, capsys):
-    monkeypatch.setattr(compiler, "loads", lambda *_: 1 / 0)
+    monkeypatch.setattr(compiler, "compile_source", lambda *_: 1 / 0)
     assert run(["check", str(sound)]) == 2
     told = capsys.readouterr().err
     assert told.startswith("internal error: ZeroDivisionError")
@@ -102,7 +102,7 @@ def test_an_unexpected_exception_is_one_line_and_no_traceback(monkeypatch, sound
 
 
 def test_the_traceback_of_an_internal_error_is_there_for_those_who_ask(monkeypatch, sound, capsys):
-    monkeypatch.setattr(compiler, "loads", lambda *_: 1 / 0)
+    monkeypatch.setattr(compiler, "compile_source", lambda *_: 1 / 0)
     monkeypatch.setenv("NSODE_DEBUG", "1")
     assert run(["check", str(sound)]) == 2
     assert "Traceback" in capsys.readouterr().err
@@ -112,7 +112,7 @@ def test_an_interrupt_is_quiet(monkeypatch, sound, capsys):
     def interrupt(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(compiler, "loads", interrupt)
+    monkeypatch.setattr(compiler, "compile_source", interrupt)
     assert run(["check", str(sound)]) == 130
     assert capsys.readouterr().err == ""
 
@@ -310,7 +310,7 @@ def test_new_leaves_a_file_that_exists_alone(tmp_path, monkeypatch, capsys):
     assert "exists" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", ["", "../ball", "a b", "1a", "état", "model", "sgn", "a.b", "a\n"])
+@pytest.mark.parametrize("name", ["", "../ball", "a b", "1a", "état", "model", "a.b", "a\n"])
 def test_new_refuses_what_cannot_name_a_model(tmp_path, monkeypatch, name, capsys):
     monkeypatch.chdir(tmp_path)
     assert run(["new", name]) == 2
