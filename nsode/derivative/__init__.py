@@ -5,9 +5,9 @@ derivative of a family a family, so size stays linear in the model. At kinks the
 derivative is finite: the value of one side, as :mod:`nsode.derivative.rules` states.
 """
 
-from nsode.derivative.forward import derivative, tangent, time_derivative
+from nsode.derivative.forward import Row, derivative, tangent, time_derivative, time_derivatives
 from nsode.derivative.rules import Partial, partials
-from nsode.derivative.sparse import Entry, Jacobian, Pattern, Row, jacobian, linearize, pattern
+from nsode.derivative.sparse import Entry, Jacobian, Pattern, jacobian, linearize, pattern
 
 __all__ = [
     "Entry",
@@ -22,4 +22,5 @@ __all__ = [
     "pattern",
     "tangent",
     "time_derivative",
+    "time_derivatives",
 ]

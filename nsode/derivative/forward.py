@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 from nsode.derivative.rules import ONE, ZERO, guarded, partials, shifted, summed, times
 from nsode.expr import (
@@ -17,12 +18,19 @@ from nsode.expr import (
     Number,
     add,
     multiply,
-    names,
     negate,
 )
 from nsode.ode import Binding, Definition, LinearSolve, Rate, SetValuedTerm, System
 
 Direction = Callable[[Name], Expr | None]
+
+
+class Row(NamedTuple):
+    """A value with its name, where it is no :class:`~nsode.ode.Rate`."""
+
+    state: str
+    value: Expr
+    range: IndexRange | None = None
 
 
 def tangent(expr: Expr, direction: Direction, taken: frozenset[str] = frozenset()) -> Expr | None:
@@ -58,10 +66,16 @@ def derivative(expr: Expr, by: str, at: Index | None = None) -> Expr:
     return tangent(expr, direction) or ZERO
 
 
-def time_derivative(
-    system: System, expr: Expr, within: IndexRange | None = None
-) -> tuple[tuple[Definition, ...], Expr]:
-    """Return d(expr)/dt along the rates of ``system`` (a Lie derivative).
+def time_derivative(system: System, expr: Expr) -> tuple[tuple[Definition, ...], Expr]:
+    """Return d(expr)/dt along the rates of ``system``, as :func:`time_derivatives` does."""
+    definitions, ((_, value, _),) = time_derivatives(system, Row("", expr))
+    return definitions, value
+
+
+def time_derivatives(
+    system: System, *rows: Rate | Row
+) -> tuple[tuple[Definition, ...], tuple[Row, ...]]:
+    """Return the derivatives of some values along the rates of ``system`` (Lie derivatives).
 
     Inputs and parameters are constant in time. The derivative of a name ``x`` that is
     no plain value stands in a new definition ``x.dot``.
@@ -70,27 +84,27 @@ def time_derivative(
     ----------
     system : System
         The system whose rates move the states.
-    expr : Expr
-        What to derive; it may read states, bindings and time.
-    within : IndexRange, optional
-        The range of the family that ``expr`` belongs to.
+    *rows : Row
+        What to derive; the values may read states, bindings and time.
 
     Returns
     -------
     definitions : tuple of Definition
         To be appended to the bindings of the system, in order.
-    value : Expr
-        The derivative in terms of them.
+    rows : tuple of Row
+        The derivatives in terms of them, under the names that were given.
 
     Raises
     ------
     ValueError
-        If ``expr`` reads a multiplier, whose derivative no equation gives.
+        If a value reads a multiplier, whose derivative no equation gives.
     """
     motion = _Motion.of(system)
-    taken = frozenset({within.variable}) if within else frozenset()
-    value = tangent(expr, motion.along, taken)
-    return tuple(motion.emitted), value or ZERO
+    derived = []
+    for state, value, span in ((row.state, row.value, row.range) for row in rows):
+        moving = tangent(value, motion.along, _variables(span))
+        derived.append(Row(state, moving or ZERO, span))
+    return tuple(motion.emitted), tuple(derived)
 
 
 @dataclass(slots=True)
@@ -204,8 +218,3 @@ def _merged(state: str, parts: list[Rate]) -> Binding:
     assert value is not None
     covered = IndexRange(whole.variable, ordered[0][0].first, ordered[-1][0].last)
     return Binding(state, value, covered, role="part")
-
-
-def reads(expr: Expr) -> frozenset[str]:
-    """Return the names that an expression reads."""
-    return frozenset(name.id for name in names(expr))

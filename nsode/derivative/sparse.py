@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from itertools import product
 from typing import NamedTuple
 
-from nsode.derivative.forward import defined
+from nsode.derivative.forward import Row, defined
 from nsode.derivative.rules import (
     ONE,
     ZERO,
@@ -29,14 +29,6 @@ from nsode.derivative.rules import (
 )
 from nsode.expr import Expr, Index, IndexRange, Name, Number, add, multiply, negate
 from nsode.ode import AugmentedODE, Binding, Definition, LinearSolve, Rate, SetValuedTerm, Slot
-
-
-class Row(NamedTuple):
-    """What is derived, where it is no :class:`~nsode.ode.Rate`."""
-
-    state: str
-    value: Expr
-    range: IndexRange | None = None
 
 
 class Entry(NamedTuple):
