@@ -15,6 +15,7 @@ from nsode.ode import AugmentedODE
 TARGETS: dict[str, str] = {
     "c": "nsode.backends.c",
     "numpy": "nsode.backends.numpy",
+    "casadi": "nsode.backends.casadi",
 }
 
 

@@ -12,15 +12,15 @@ import re
 
 import nsode
 from nsode.backends import Options
+from nsode.backends.families import ranges
 from nsode.backends.numpy.functions import Writer
 from nsode.backends.numpy.helpers import HELPERS
 from nsode.backends.numpy.lower import Environment, lower
 from nsode.backends.numpy.names import module_stem, python_names
 from nsode.backends.numpy.steps import steps
 from nsode.backends.numpy.tables import tables
-from nsode.expr import TIME, IndexRange
-from nsode.ode import AugmentedODE, Placed
-from nsode.passes.prune import defines
+from nsode.expr import TIME
+from nsode.ode import AugmentedODE
 from nsode.passes.split import split
 
 __all__ = ["emit", "environment", "lower"]
@@ -40,18 +40,9 @@ def emit(ode: AugmentedODE, options: Options) -> dict[str, str]:
 
 def environment(ode: AugmentedODE) -> Environment:
     """Return what the names of a split ODE mean."""
-    placed: list[Placed] = [*ode.parameters, *ode.inputs, *ode.states]
-    ranges: dict[str, IndexRange | None] = {item.name: item.range for item in placed}
-    for item in ode.bindings:
-        for name in defines(item):
-            ranges[name] = _cover(ranges.get(name), item.range)
-    return Environment({**python_names(ranges), TIME: TIME}, {**ranges, TIME: None})
-
-
-def _cover(one: IndexRange | None, other: IndexRange | None) -> IndexRange | None:
-    if one is None or other is None:
-        return other
-    return IndexRange(one.variable, min(one.first, other.first), max(one.last, other.last))
+    found = ranges(ode)
+    spelling = python_names(name for name in found if name != TIME)
+    return Environment({**spelling, TIME: TIME}, found)
 
 
 def _module(stem: str, ode: AugmentedODE, real: str) -> str:
