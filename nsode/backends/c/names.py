@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
-_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\[-?[0-9]+\])?(\.[A-Za-z0-9_]+)*\Z")
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\[-?[0-9]+\]|\.[A-Za-z0-9_]+)*\Z")
+_SPELLING = str.maketrans({".": "_", "[": "_", "]": None, "-": "m"})
 
 
 def identifier(text: str) -> str:
@@ -41,8 +42,8 @@ class Mangler:
     """Hands out C names under one prefix: ``p.x`` is ``x_p_x``, and a clash is numbered.
 
     Behind a prefix that no keyword, macro or library name begins with, a user's ``int``
-    or ``errno`` is harmless. A dot becomes ``_``; where that makes two names equal, the
-    later one gets a number.
+    or ``errno`` is harmless. A dot becomes ``_``, so does a bracket (``q[1]`` is ``x_q_1``);
+    where that makes two names equal, the later one gets a number.
     """
 
     prefix: str
@@ -52,7 +53,7 @@ class Mangler:
     def __getitem__(self, name: str) -> str:
         """Return the C name of a name of the model."""
         if name not in self._given:
-            self._given[name] = self._fresh(self.prefix + plain(name).replace(".", "_"))
+            self._given[name] = self._fresh(self.prefix + plain(name).translate(_SPELLING))
         return self._given[name]
 
     def _fresh(self, wish: str) -> str:
