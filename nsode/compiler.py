@@ -12,6 +12,7 @@ from nsode.files import write_all
 from nsode.inclusion import build
 from nsode.ode import AugmentedODE, DifferentialInclusion
 from nsode.rewrite import rewrite
+from nsode.rewrite.start import at_start
 from nsode.source import Source
 from nsode.syntax import decode, parse, read
 
@@ -97,6 +98,7 @@ def compile_source(source: Source) -> Model:
     """
     try:
         inclusion, diagnostics = build(parse(source))
-        return Model(inclusion, rewrite(inclusion), diagnostics)
+        ode = rewrite(inclusion)
+        return Model(inclusion, ode, (*diagnostics, *at_start(ode)))
     except ModelError as error:
         raise ModelError(error.diagnostics, source) from None

@@ -60,6 +60,9 @@ class State:
     span: Span = field(default=NOWHERE, compare=False, kw_only=True)
 
 
+Role = Literal["let", "force", "term", "part"]
+
+
 @dataclass(frozen=True, slots=True)
 class Binding:
     """A named value; reads only bindings that stand before it.
@@ -71,7 +74,7 @@ class Binding:
     name: str
     value: Expr
     range: IndexRange | None = None
-    role: Literal["let", "force", "term", "part"] = "let"
+    role: Role = "let"
     unit: str | None = None
     span: Span = field(default=NOWHERE, compare=False, kw_only=True)
 
@@ -241,9 +244,14 @@ class Placed(Protocol):
     """Anything that takes places in x, u, p or y."""
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Its name."""
+        ...
+
     @property
-    def range(self) -> IndexRange | None: ...
+    def range(self) -> IndexRange | None:
+        """Its index range, None for a single place."""
+        ...
 
 
 class Slot(NamedTuple):

@@ -78,7 +78,7 @@ class _Course:
     elements: Elements = field(init=False)
     outputs: list[Output] = field(default_factory=list)
     checks: list[Check] = field(default_factory=list)
-    hints: Run = Run()
+    hints: Run = field(default_factory=Run)
 
     def __post_init__(self) -> None:
         self.report = Report(self.model.source)

@@ -152,9 +152,10 @@ class Declarations:
 
     def _fits(self, value: Value | None, of: Shape, declarator: Declarator) -> None:
         if value is not None and shape(value) != of:
+            name, found = declarator.name.text, describe(shape(value))
             raise refuse(
                 "NS105",
-                f"`{declarator.name.text}` is {describe(of)}, but its value is {describe(shape(value))}",
+                f"`{name}` is {describe(of)}, but its value is {found}",
                 declarator.span,
                 help="give one value for each component, for example `[0, 0, 0]`",
             )

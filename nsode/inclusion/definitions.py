@@ -26,7 +26,7 @@ from nsode.inclusion.values import (
     shape,
     suffixes,
 )
-from nsode.ode import Binding, SetValuedTerm
+from nsode.ode import Binding, Role, SetValuedTerm
 from nsode.syntax import ast
 from nsode.syntax.ast import Declarator, Unit
 
@@ -147,7 +147,7 @@ class Definitions:
         of = shape(value)
         unit = None if pending.unit is None else pending.unit.text
         self.symbols.define(Symbol(name.text, pending.kind, of, over, name.span, unit))
-        role = "force" if pending.kind == "force" else "let"
+        role: Role = "force" if pending.kind == "force" else "let"
         for suffix, part in zip(suffixes(of), scalars(value), strict=True):
             self.bindings.append(
                 Binding(name.text + suffix, part, over, role, unit, span=name.span)

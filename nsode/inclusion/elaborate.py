@@ -18,6 +18,7 @@ from nsode.inclusion.values import (
     describe,
     each,
     from_scalars,
+    is_zero,
     scalars,
     shape,
     suffixes,
@@ -276,17 +277,8 @@ def _apply(expr: Call, args: tuple[Value, ...]) -> Value:
         case "*", (left, right):
             result = values.times(each(number, left), each(number, right))
             return replace(result, span=expr.span) if isinstance(result, Expr) else result
-        case "/", (left, Expr() as right):
-            return each(
-                lambda part: (
-                    part
-                    if values.is_zero(part) and not isinstance(left, Expr)
-                    else Call("/", (number(part), number(right)), span=expr.span)
-                ),
-                left,
-            )
-        case "/", _:
-            raise ShapeError("only a scalar can divide")
+        case "/", (left, right):
+            return _quotient(expr, left, right)
         case "dot", (left, right):
             return values.dot(left, right)
         case "cross", (left, right):
@@ -298,6 +290,19 @@ def _apply(expr: Call, args: tuple[Value, ...]) -> Value:
         case "norm", (inner,):
             return values.norm(inner)
     return _scalar_function(expr, args)
+
+
+def _quotient(expr: Call, left: Value, right: Value) -> Value:
+    if not isinstance(right, Expr):
+        raise ShapeError("only a scalar can divide")
+    divisor = number(right)
+    if isinstance(left, Expr):
+        return Call("/", (number(left), divisor), span=expr.span)
+
+    def divided(part: Expr) -> Expr:
+        return part if is_zero(part) else Call("/", (number(part), divisor), span=expr.span)
+
+    return each(divided, left)
 
 
 def _scalar_function(expr: Call, args: tuple[Value, ...]) -> Expr:

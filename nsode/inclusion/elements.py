@@ -9,7 +9,7 @@ from typing import NamedTuple
 from nsode.diagnostics import Diagnostic, Label
 from nsode.expr import Expr, Index, Name, Number, multiply, negate, rebuild
 from nsode.inclusion.sharing import Numbering, Scaled
-from nsode.ode import Binding, Definition, LinearSolve, SetValuedTerm
+from nsode.ode import Binding, Definition, LinearSolve, Role, SetValuedTerm
 
 
 class _Identity(NamedTuple):
@@ -91,7 +91,7 @@ def _final_names(
     same: list[tuple[SetValuedTerm, SetValuedTerm, float]],
     inline: set[str],
 ) -> dict[str, str]:
-    """Number inline terms by kind, in the order of the text."""
+    """Return the names of inline terms: numbered by kind, in the order of the text."""
     renamed: dict[str, str] = {}
     count = {"dio": 0, "sgn": 0}
     merged = {term.name: element for term, element, ratio in same if ratio == 1.0}
@@ -119,9 +119,8 @@ def _alias(
     term: SetValuedTerm, element: SetValuedTerm, ratio: float, inline: set[str]
 ) -> list[Binding]:
     at = None if element.range is None else Index(element.range.variable)
-    role = "part" if term.name in inline else "force"
-    if term.name not in inline and term.multiplier[0].startswith(f"{term.name}.lambda"):
-        role = "part"
+    named = term.name not in inline and f"{term.name}.lambda" not in term.multiplier[0]
+    role: Role = "force" if named else "part"
     return [
         Binding(mine, _multiple(Name(theirs, at), ratio), element.range, role, span=term.span)
         for mine, theirs in zip(term.multiplier, element.multiplier, strict=True)

@@ -74,7 +74,7 @@ def _outside(expr: Name, k: int, family: IndexRange) -> ModelError:
         f"`{head}[{k}]` does not exist",
         expr.span,
         f"`{head}` goes from {family.first} to {family.last}",
-        help=f"shorten the range, or write `(if {family.variable} > {family.first} then ... else ...)`",
+        help=f"shorten the range, or write `(if {family.variable} > {family.first} then ...)`",
     )
 
 

@@ -18,7 +18,7 @@ class Reads(NamedTuple):
     dio: bool = False
     sgn: bool = False
 
-    def __or__(self, other: Reads) -> Reads:  # type: ignore[override]
+    def __or__(self, other: Reads) -> Reads:
         return Reads(self.state or other.state, self.dio or other.dio, self.sgn or other.sgn)
 
 

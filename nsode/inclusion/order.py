@@ -38,7 +38,8 @@ def order(keys: Sequence[Key], reads: Mapping[Key, Iterable[Key]]) -> list[Key]:
 
 def loop(keys: Sequence[Key], reads: Mapping[Key, Iterable[Key]]) -> list[Key]:
     """Return one loop among the keys that :func:`order` left out, in reading order."""
-    left = set(keys) - set(order(keys, reads))
+    sorted_out: list[Key] = order(keys, reads)
+    left = set(keys).difference(sorted_out)
     key = next(k for k in keys if k in left)
     path: dict[Key, int] = {}
     while key not in path:

@@ -35,8 +35,8 @@ def divided_factors(
             case Call("/", (_, divisor)) if all(name.id in parameters for name in names(divisor)):
                 yield Diagnostic(
                     "NS405",
-                    f"the factor of `{term.name}` holds a division: its K counts per unit of the divisor",
+                    f"the factor of `{term.name}` holds a division: its K is per divisor",
                     (Label(divisor.span, "divides the factor"),),
-                    help="write the division behind the term, as in `F*sgn(v)/M`, if F is the force",
+                    help="if F is the force, divide behind the term: `F*sgn(v)/M`",
                     severity="note",
                 )

@@ -10,7 +10,7 @@ from nsode.diagnostics import Diagnostic, ModelError
 from nsode.source import Source
 
 
-class Poisoned(Exception):
+class PoisonedError(Exception):
     """Something reads a name whose own declaration was refused; said once is enough."""
 
 
@@ -32,7 +32,7 @@ class Report:
             yield
         except ModelError as error:
             self.found.extend(error.diagnostics)
-        except Poisoned:
+        except PoisonedError:
             pass
 
     def ordered(self) -> list[Diagnostic]:

@@ -46,7 +46,7 @@ class Review:
             if size > SIZE_LIMIT:
                 raise refuse(
                     "NS011",
-                    f"this grows to more than {SIZE_LIMIT} operations when its vectors are written out",
+                    f"more than {SIZE_LIMIT} operations when its vectors are written out",
                     component.span,
                     help="name intermediate results with `let`",
                 )

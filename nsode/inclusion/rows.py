@@ -57,7 +57,7 @@ class Rows:
         if shape(left) != shape(right):
             raise refuse(
                 "NS105",
-                f"the left side is {describe(shape(left))}, the right side {describe(shape(right))}",
+                f"{describe(shape(left))} on the left, {describe(shape(right))} on the right",
                 equation.span,
                 help="both sides of an equation have one shape",
             )

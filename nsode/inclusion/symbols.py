@@ -8,7 +8,7 @@ from typing import Literal
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
 from nsode.expr import FUNCTIONS, TIME, Call, IndexRange
-from nsode.inclusion.report import Poisoned
+from nsode.inclusion.report import PoisonedError
 from nsode.inclusion.values import Shape, Value
 from nsode.source import Span
 
@@ -88,7 +88,7 @@ class Symbols:
         ------
         ModelError
             NS101 if nobody declared it.
-        Poisoned
+        PoisonedError
             If its declaration was refused.
         """
         symbol = self.known.get(name)
@@ -96,7 +96,7 @@ class Symbols:
             self.used.add(name)
             return symbol
         if name in self.declared:
-            raise Poisoned
+            raise PoisonedError
         near = suggest(name, [*self.declared, *also])
         raise ModelError(
             [

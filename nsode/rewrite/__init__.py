@@ -47,7 +47,7 @@ def rewrite(inclusion: DifferentialInclusion) -> AugmentedODE:
 def replace_terms(
     inclusion: DifferentialInclusion, kind: str
 ) -> tuple[DifferentialInclusion, list[AuxiliaryState]]:
-    """Steps 1 and 2: replace the terms of one kind; return their auxiliary states too."""
+    """Replace the terms of one kind, steps 1 and 2; return their auxiliary states too."""
     bindings: list[Definition] = []
     states: list[AuxiliaryState] = []
     for item in inclusion.bindings:

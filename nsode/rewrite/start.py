@@ -1,0 +1,152 @@
+"""A look at the start of a run: what is undefined there should be said before it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from nsode.diagnostics import Diagnostic, Label, ModelError
+from nsode.evaluate import evaluate
+from nsode.expr import TIME, Call, Expr, IndexRange, Name, Sum, children, names, walk
+from nsode.ode import AugmentedODE, Binding, Rate
+
+#: Families that read each other deeper than this, and sums longer, are not looked into.
+_DEPTH, _LENGTH = 50, 1000
+
+
+class _GiveUpError(Exception):
+    """Finding out would cost too much, or wants what only a run brings."""
+
+
+def at_start(ode: AugmentedODE) -> tuple[Diagnostic, ...]:
+    """Return warnings for rates that are undefined at the start.
+
+    Constants that nobody gave count as 1. Of a family, the first and the last element
+    of each piece are looked at.
+
+    Raises
+    ------
+    ModelError
+        NS116 where the parameters alone make a rate undefined.
+    """
+    start = _Start.of(ode)
+    found: dict[Diagnostic, None] = {}
+    for rate in ode.rates:
+        for indices in _ends(rate):
+            try:
+                culprit = start.culprit(rate.value, indices)
+            except _GiveUpError:
+                continue
+            if culprit is not None:
+                found[start.diagnosis(culprit, rate)] = None
+    errors = [d for d in found if d.severity == "error"]
+    if errors:
+        raise ModelError(errors, ode.source)
+    return tuple(found)
+
+
+def _ends(rate: Rate) -> Iterator[dict[str, int]]:
+    if rate.range is None:
+        yield {}
+    elif len(rate.range):
+        yield {rate.range.variable: rate.range.first}
+        yield {rate.range.variable: rate.range.last}
+
+
+@dataclass(slots=True)
+class _Start:
+    """Values at t = 0; ``formulas`` has what each name is, piece by piece."""
+
+    formulas: dict[str, list[tuple[Expr, IndexRange | None]]]
+    parameters: set[str]
+    known: dict[tuple[str, int | None], float] = field(default_factory=dict)
+    depth: int = 0
+
+    @classmethod
+    def of(cls, ode: AugmentedODE) -> _Start:
+        formulas: dict[str, list[tuple[Expr, IndexRange | None]]] = {}
+        for state in ode.states:
+            formulas[state.name] = [(state.initial, state.range)]
+        bindings = [item for item in ode.bindings if isinstance(item, Binding)]
+        for binding in bindings:
+            formulas.setdefault(binding.name, []).append((binding.value, binding.range))
+        start = cls(formulas, {parameter.name for parameter in ode.parameters})
+        start.known[TIME, None] = 0.0
+        for parameter in ode.parameters:
+            over = parameter.range
+            for k, value in enumerate(parameter.values):
+                at = None if over is None else over.first + k
+                start.known[parameter.name, at] = 1.0 if math.isnan(value) else value
+        for binding in bindings:  # in order, so that long chains need no recursion
+            if binding.range is None:
+                try:
+                    start.lookup(binding.name, None)
+                except _GiveUpError:
+                    continue
+        return start
+
+    def lookup(self, name: str, at: int | None) -> float:
+        if (name, at) not in self.known:
+            if self.depth >= _DEPTH:
+                raise _GiveUpError
+            self.depth += 1
+            try:
+                self.known[name, at] = self._value(name, at)
+            finally:
+                self.depth -= 1
+        return self.known[name, at]
+
+    def _value(self, name: str, at: int | None) -> float:
+        for expr, over in self.formulas.get(name, ()):
+            if over is None:
+                return self.value(expr, {})
+            if at is not None and over.first <= at <= over.last:
+                return self.value(expr, {over.variable: at})
+        raise _GiveUpError
+
+    def value(self, expr: Expr, indices: dict[str, int]) -> float:
+        if any(isinstance(node, Sum) and len(node.range) > _LENGTH for node in walk(expr)):
+            raise _GiveUpError
+        return evaluate(expr, self.lookup, indices)
+
+    def culprit(self, expr: Expr, indices: dict[str, int]) -> Expr | None:
+        """Return the innermost part that is not finite though what it reads is."""
+        if isinstance(expr, Sum) or math.isfinite(self.value(expr, indices)):
+            return None
+        if isinstance(expr, Name):
+            for formula, over in self.formulas.get(expr.id, ()):
+                if over is None:
+                    return self.culprit(formula, {})
+            raise _GiveUpError
+        for child in children(expr):
+            found = self.culprit(child, indices)
+            if found is not None:
+                return found
+        return expr
+
+    def diagnosis(self, culprit: Expr, rate: Rate) -> Diagnostic:
+        labels = [Label(culprit.span, "undefined at the start")]
+        if not rate.span.start <= culprit.span.start < rate.span.end:
+            labels.append(Label(rate.span, f"so is the rate of `{rate.state}`"))
+        match culprit:
+            case Call("/", (_, divisor)) if self._fixed(divisor):
+                return Diagnostic(
+                    "NS116",
+                    "division by zero",
+                    (Label(divisor.span, "this is 0"), *labels[1:]),
+                    help="give the parameters a value that makes it nonzero",
+                )
+            case Call("/", (_, divisor)):
+                labels[0] = Label(culprit.span, "divides by zero at the start")
+        return Diagnostic(
+            "NS406",
+            f"the rate of `{rate.state}` is undefined at the start",
+            tuple(labels),
+            help="start elsewhere, or write the expression so that it is defined there",
+            severity="warning",
+        )
+
+    def _fixed(self, expr: Expr) -> bool:
+        """Tell whether an expression reads parameters alone."""
+        return all(name.id in self.parameters for name in names(expr))
