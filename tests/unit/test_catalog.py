@@ -1,0 +1,55 @@
+"""Each page of ``nsode code`` does what it says: one model gets that code, the other passes."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import nsode
+from nsode.diagnostics import CODES, ModelError
+
+PAGES = sorted((Path(nsode.__file__).parent / "catalog").glob("NS*.md"))
+# What no text of a sensible length shows: sizes, and errors of a run or of the machine.
+WITHOUT_EXAMPLE = {"NS012", "NS307", "NS501", "NS601", "NS602", "NS603"}
+_BLOCK = re.compile(r"^```di\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+
+
+def codes(text: str) -> tuple[set[str], set[str]]:
+    """Return the codes of the errors, and of the warnings and notes, about a model."""
+    try:
+        found = nsode.loads(text).diagnostics
+    except ModelError as error:
+        found = error.diagnostics
+    errors = {d.code for d in found if d.severity == "error"}
+    return errors, {d.code for d in found} - errors
+
+
+def blocks(page: Path) -> list[str]:
+    return _BLOCK.findall(page.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_a_page_has_a_title_an_example_and_its_repair(page: Path) -> None:
+    assert page.stem in CODES
+    assert page.read_text(encoding="utf-8").startswith(f"# {page.stem}: ")
+    assert len(blocks(page)) == (1 if page.stem in WITHOUT_EXAMPLE else 2)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_the_example_gets_the_code_and_the_repair_does_not(page: Path) -> None:
+    *examples, repaired = blocks(page)
+    for example in examples:
+        errors, others = codes(example)
+        assert page.stem in errors | others
+        assert not errors - {page.stem}
+    errors, others = codes(repaired)
+    assert not errors
+    assert page.stem not in others
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_the_lines_of_a_page_fit_a_terminal(page: Path) -> None:
+    text = _BLOCK.sub("", page.read_text(encoding="utf-8"))
+    assert max(map(len, text.splitlines())) <= 100
