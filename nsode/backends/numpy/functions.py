@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from nsode.backends.numpy.lower import Environment, depends_on_index, lower
-from nsode.expr import Expr, IndexRange
+from nsode.expr import Expr, IndexRange, Number
 from nsode.ode import (
     AugmentedODE,
     Binding,
@@ -48,11 +48,12 @@ class Writer:
         ]
 
     def init(self) -> list[str]:
-        """Return the lines that fill ``x``: the model's own states, then the appended ones."""
+        """Return the lines that fill ``x``, zero so far: own states, then appended ones."""
         slots = layout(self.ode.states)
         appended = {item.name for item in self.ode.auxiliary}
-        own = [(s, s.initial) for s in self.ode.states if s.name not in appended]
-        later = [(s, s.initial) for s in self.ode.states if s.name in appended]
+        nonzero = [(s, s.initial) for s in self.ode.states if s.initial != Number(0.0)]
+        own = [(s, value) for s, value in nonzero if s.name not in appended]
+        later = [(s, value) for s, value in nonzero if s.name in appended]
         first = list(self._prepare(value for _, value in own))
         second = self._prepare(value for _, value in later)
         return [

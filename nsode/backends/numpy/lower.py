@@ -117,17 +117,14 @@ def _subscript(id: str, at: Index | None, env: Environment) -> str:
 
 
 def _call(function: str, args: tuple[Expr, ...], env: Environment) -> Text:
-    # Python's own numbers raise where IEEE arithmetic gives inf or NaN, so one of them
-    # becomes NumPy's where an operator would meet no other.
     parts = [_lower(arg, env) for arg in args]
-    if all(map(_is_plain, args)) and function in {"/", "*", "+", "^"}:
+    if _may_raise(function, args):
         parts[0] = Text(f"real({parts[0].text})", _ATOM)
     match function:
         case "+":
             return Text(_terms(args, parts), _SUM)
         case "neg":
-            level = _PRODUCT if parts[0].level == _PRODUCT else _SIGN
-            return Text(f"-{_at_least(parts[0], _PRODUCT)}", level)
+            return _negated(parts[0])
         case "*" | "/":
             left, right = _at_least(parts[0], _PRODUCT), _at_least(parts[1], _SIGN)
             return Text(f"{left} {function} {right}", _PRODUCT)
@@ -142,17 +139,34 @@ def _call(function: str, args: tuple[Expr, ...], env: Environment) -> Text:
             return Text(f"{_CALLS[function]}({', '.join(part.text for part in parts)})", _ATOM)
 
 
+def _may_raise(function: str, args: tuple[Expr, ...]) -> bool:
+    """Whether Python's own numbers meet, and raise where IEEE arithmetic gives inf or NaN."""
+    match function, args:
+        case "/", (_, Number(divisor)) if divisor:
+            return False
+        case (("/" | "^"), _):
+            return all(map(_is_plain, args))
+        case _:
+            return False
+
+
 def _is_plain(expr: Expr) -> bool:
     """Whether the text of an expression gives a number of Python's own."""
     match expr:
         case Number() | Index():
             return True
-        case Call("neg", (inner,)):
-            return _is_plain(inner)
+        case Call("neg" | "+" | "*" | "/" as function, args):
+            return all(map(_is_plain, args)) and not _may_raise(function, args)
         case If(_, then, otherwise):
             return _is_plain(then) and _is_plain(otherwise)
         case _:
             return False
+
+
+def _negated(part: Text) -> Text:
+    if part.level in {_SIGN, _PRODUCT} and part.text.startswith("-"):
+        return Text(part.text[1:], _PRODUCT)
+    return Text(f"-{_at_least(part, _PRODUCT)}", _PRODUCT if part.level == _PRODUCT else _SIGN)
 
 
 def _at_least(part: Text, level: int) -> str:

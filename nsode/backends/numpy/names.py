@@ -20,7 +20,7 @@ RESERVED = frozenset({*_OWN, *keyword.kwlist, *keyword.softkwlist, *dir(builtins
 
 
 def python_names(names: Iterable[str]) -> dict[str, str]:
-    """Return an identifier for each name: ``N.K`` is ``N_K``, ``lambda`` is ``lambda_``."""
+    """Return an identifier for each name: ``q[1]`` is ``q_1``, ``lambda`` ``lambda_``."""
     return distinct(names, _spell, reserved=RESERVED)
 
 
@@ -32,6 +32,6 @@ def module_stem(prefix: str) -> str:
 
 
 def _spell(name: str) -> str:
-    word = re.sub(r"[^A-Za-z0-9_]", "_", name)
+    word = re.sub(r"[^A-Za-z0-9_]", "_", name.replace("]", ""))
     # A leading underscore stays free for the module's own use; a digit cannot lead.
     return word if word[:1].isalpha() else f"n{word}"
