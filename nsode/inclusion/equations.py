@@ -234,7 +234,7 @@ def _single(found: Row) -> Rate:
     if is_zero(coefficient):
         raise refuse("NS113", "the coefficient of `der` is zero", found.span)
     value = found.right
-    if not (isinstance(coefficient, Number) and coefficient.value == 1.0):
+    if not is_zero(value) and not (isinstance(coefficient, Number) and coefficient.value == 1.0):
         value = divide(found.right, coefficient)
     range = found.range
     if unknown.at is not None and unknown.at.variable is None:

@@ -114,6 +114,9 @@ def product(left: Expr, right: Expr) -> Expr:
         return right
     if _is(right, 1.0):
         return left
+    match left:
+        case Call("neg", (inner,)):
+            return negate(product(inner, right))
     return multiply(left, right)
 
 

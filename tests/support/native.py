@@ -24,6 +24,7 @@ WARNINGS = (
 FLAGS = ("-O1", "-ffp-contract=off")
 
 Real = Literal["double", "float"]
+DTYPES: dict[str, np.dtype] = {"double": np.dtype(np.float64), "float": np.dtype(np.float32)}
 
 
 class StatusError(Exception):
@@ -181,6 +182,4 @@ def build(
     library = folder / "model.so"
     strict = WARNINGS if cc in {"gcc", "clang"} else ()
     run_tool([cc, *strict, *flags, "-fPIC", "-shared", "-o", library, *sources, "-lm"])
-    return Native(
-        ode, prefix or ode.name, folder, ctypes.CDLL(str(library)), np.dtype(np.dtype(real))
-    )
+    return Native(ode, prefix or ode.name, folder, ctypes.CDLL(str(library)), DTYPES[real])
