@@ -22,8 +22,7 @@ def command(code: str | None) -> None:
 
 
 def _known(code: str) -> str:
-    upper = code.upper()
-    full = upper if upper.startswith("NS") else f"NS{upper}"
+    full = f"NS{code.upper().removeprefix('NS'):0>3}"
     if full not in CODES:
         raise click.BadParameter(f"no code `{code}` (`nsode code` lists them)")
     return full

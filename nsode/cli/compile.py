@@ -56,35 +56,34 @@ def command(model: str, target: str, folder: Path, real: str, prefix: str | None
     except OSError as error:
         complain([io_diagnostic("NS602", error)])
         return USAGE
-    _show(loaded, target, paths)
+    _show(loaded, paths)
     return 0
 
 
-def _show(model: Model, target: str, paths: list[Path]) -> None:
+def _show(model: Model, paths: list[Path]) -> None:
     say(f"{bold(model.ode.name)}: {summary(model)}")
     width = max(len(str(path)) for path in paths)
     for path in paths:
         say(f"  {path!s:<{width}}  {_bytes(path.stat().st_size):>8}")
-    hint = _next(target, paths)
+    hint = _next(paths)
     if hint is not None:
         say(quiet(f"next: {hint}"))
 
 
-def _bytes(count: int) -> str:
+def _bytes(count: float) -> str:
     for unit in ("B", "kB", "MB"):
         if count < 1000:
             return f"{count:.3g} {unit}"
-        count = count / 1000  # type: ignore[assignment]
+        count /= 1000
     return f"{count:.3g} GB"
 
 
-def _next(target: str, paths: list[Path]) -> str | None:
-    match target:
-        case "c":
-            source = next(path for path in paths if path.suffix == ".c")
-            return f"gcc -O2 -I {source.parent} main.c {source} -lm"
-        case "numpy":
-            module = next(path for path in paths if path.suffix == ".py")
-            return f"import {module.stem}"
-        case _:
-            return None
+def _next(paths: list[Path]) -> str | None:
+    """Return the command that uses what was written."""
+    for path in paths:
+        match path.suffix:
+            case ".c":
+                return f"gcc -O2 -I {path.parent} main.c {path} -lm"
+            case ".py":
+                return f"PYTHONPATH={path.parent} python -c 'import {path.stem}'"
+    return None

@@ -337,5 +337,11 @@ def test_every_code_can_be_asked_for(code, capsys):
     assert code in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("short", ["NS001", "ns1", "1", "001"])
+def test_a_code_may_be_shortened(short, capsys):
+    assert run(["code", short]) == 0
+    assert "NS001" in capsys.readouterr().out
+
+
 def test_an_unknown_code_is_wrong_usage(capsys):
     assert run(["code", "NS999"]) == 2
