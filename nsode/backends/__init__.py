@@ -16,6 +16,8 @@ TARGETS: dict[str, str] = {
     "c": "nsode.backends.c",
     "numpy": "nsode.backends.numpy",
     "casadi": "nsode.backends.casadi",
+    "latex": "nsode.backends.latex",
+    "markdown": "nsode.backends.markdown",
 }
 
 
