@@ -6,18 +6,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from nsode.diagnostics import Diagnostic, Label, suggest
-from nsode.expr import FUNCTIONS
 from nsode.source import Span
 from nsode.syntax.slips import short
 from nsode.syntax.tokens import Token
-from nsode.syntax.words import KEYWORDS, STATEMENT_KEYWORDS
+from nsode.syntax.words import FUNCTION_NAMES, KEYWORDS, STATEMENT_KEYWORDS
 
 _OPERAND = frozenset({"NUMBER", "NAME", "LPAR", "LSQB", "MINUS", "IF", "NOT", "SUM"})
 _OPERATOR = frozenset(
     {"PLUS", "MINUS", "STAR", "SLASH", "CIRCUMFLEX", "INEQUALITY", "EQUALITY", "AND", "OR"}
     | {"DOT", "LSQB", "LPAR"}
 )
-_APPLICABLE = {*(f for f in FUNCTIONS if f.isalnum()), "der", "dio", "sgn", "dot", "cross"}
 _FOREIGN_WORDS = {
     "const": "constant",
     "def": "let",
@@ -103,7 +101,7 @@ def _misspelt_keyword(slip: Slip) -> Diagnostic | None:
     if len(slip.before) != 1 or slip.first.type != "NAME" or slip.type != "NAME":
         return None
     word = slip.first.text
-    if word in _APPLICABLE:
+    if word in FUNCTION_NAMES:
         return None
     meant = _FOREIGN_WORDS.get(word.lower())
     way_out = f"did you mean `{meant}`?" if meant else suggest(word.lower(), STATEMENT_KEYWORDS)
@@ -208,7 +206,7 @@ def _application(slip: Slip) -> str | None:
     last = slip.last
     if last is None or not slip.follows_operand:
         return None
-    if last.text in _APPLICABLE and slip.type in ("NAME", "NUMBER"):
+    if last.text in FUNCTION_NAMES and slip.type in ("NAME", "NUMBER"):
         return f"write `{last.text}({slip.text})`"
     if slip.type == "NUMBER" and slip.text.startswith(".") and slip.text[1:].isdigit():
         return f"an element is written `{last.text}[{slip.text[1:]}]`"
