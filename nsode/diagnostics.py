@@ -69,8 +69,18 @@ CODES: dict[str, str] = {
     "NS405": "factor that holds a division",
     "NS406": "undefined value at the start",
     "NS407": "unstable step",
+    "NS408": "lightly damped friction",
     # runs
     "NS501": "setting of a run out of range",
+    "NS502": "run too large",
+    "NS503": "value missing",
+    "NS504": "state no longer finite",
+    "NS505": "condition broken during a run",
+    "NS506": "energy from nothing",
+    "NS507": "interrupted",
+    "NS508": "unusable input data",
+    "NS509": "no working compiler",
+    "NS510": "unsafe build cache",
     # files and the machine
     "NS601": "cannot read",
     "NS602": "cannot write",
