@@ -24,13 +24,18 @@ from nsode.inclusion.values import is_zero
 from nsode.ode import Binding, LinearSolve, Rate, State
 from nsode.source import Span
 
-#: ``der(x)`` is this name until its equation is solved.
+#: ``der(x)`` is the name ``x.rate`` until its equation is solved, and behind it where read.
 Unknown = Name
 
 
 def derivative_name(state: str) -> str:
     """Return the internal name of the rate of a state."""
-    return f"der({state})"
+    return f"{state}.rate"
+
+
+def state_of(unknown: Unknown) -> str:
+    """Return the name of the state whose derivative this is."""
+    return unknown.id.removesuffix(".rate")
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,7 +143,7 @@ def _times(left: Expr, right: Expr) -> Expr:
 
 
 def _is_unknown(name: Name) -> bool:
-    return name.id.startswith("der(")
+    return name.id.endswith(".rate")
 
 
 def _aligned(found: Row) -> Row:
@@ -207,7 +212,7 @@ def solve(
         system = _system(group)
         bindings.append(system)
         rates.extend(
-            Rate(unknown.id[4:-1], unknown, group[0].range, span=r.span)
+            Rate(state_of(unknown), unknown, group[0].range, span=r.span)
             for unknown, r in zip(_unknowns(group), group, strict=True)
         )
     _check_coverage(rates, states)
@@ -240,7 +245,7 @@ def _single(found: Row) -> Rate:
     if unknown.at is not None and unknown.at.variable is None:
         k = unknown.at.offset
         range = IndexRange("i", k, k)
-    return Rate(unknown.id[4:-1], value, range, span=found.span)
+    return Rate(state_of(unknown), value, range, span=found.span)
 
 
 def _substitute(found: Row, solved: Mapping[Unknown, Rate]) -> Row:
@@ -252,7 +257,7 @@ def _substitute(found: Row, solved: Mapping[Unknown, Rate]) -> Row:
         else:
             kept.append((unknown, coefficient))
     if not kept:
-        raise _doubled(found.unknowns[0].id[4:-1], found.span, solved[found.unknowns[0]].span)
+        raise _doubled(state_of(found.unknowns[0]), found.span, solved[found.unknowns[0]].span)
     return replace(found, coefficients=tuple(kept), right=right)
 
 
@@ -280,7 +285,7 @@ def _system(group: Sequence[Row]) -> LinearSolve:
     unknowns = _unknowns(group)
     span = group[0].span
     if len(unknowns) > len(group):
-        listed = ", ".join(f"`{u.id}`" for u in unknowns)
+        listed = ", ".join(f"`der({state_of(u)})`" for u in unknowns)
         raise refuse(
             "NS107",
             f"{len(group)} equations for {len(unknowns)} derivatives: {listed}",
@@ -289,7 +294,7 @@ def _system(group: Sequence[Row]) -> LinearSolve:
             help="every state has one equation",
         )
     if len(unknowns) < len(group):
-        raise _doubled(unknowns[-1].id[4:-1], group[-1].span, group[0].span)
+        raise _doubled(state_of(unknowns[-1]), group[-1].span, group[0].span)
     _check_one_index(group)
     zero = Number(0.0, span=span)
     matrix = tuple(
