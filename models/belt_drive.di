@@ -12,7 +12,7 @@ parameter c  = 8e-3  {N*m*s/rad}
 parameter Ts = 0.6   {N*m}      # breakaway torque
 parameter Tc = 0.3   {N*m}      # sliding torque
 parameter ws = 0.5   {rad/s}    # speed at which the one turns into the other
-parameter kp = 0.5   {N*m*s/rad}
+parameter kp = 2     {N*m*s/rad}
 parameter ref = 0.8  {rad/s}    # speed asked of the motor
 
 assume Ts >= Tc
