@@ -153,25 +153,22 @@ def _function(function: str, args: tuple[Expr, ...], scope: Scope) -> Code:
 
 
 def _library(function: str, args: tuple[Expr, ...], scope: Scope) -> Code:
+    """Return a call of ``math.h``, where compilers frown on an integer argument."""
     scope.use(function)
-    return _written(function + ("f" if scope.single else ""), args, scope)
+    texts = (_real(_code(arg, scope)).text for arg in args)
+    return Code(f"{function}{'f' if scope.single else ''}({', '.join(texts)})", _PRIMARY)
 
 
 def _apply(helper: str, args: tuple[Expr, ...], scope: Scope) -> Code:
     scope.use(helper)
-    return _written(helper, args, scope)
-
-
-def _written(function: str, args: tuple[Expr, ...], scope: Scope) -> Code:
-    return Code(f"{function}({', '.join(lower(arg, scope) for arg in args)})", _PRIMARY)
+    return Code(f"{helper}({', '.join(lower(arg, scope) for arg in args)})", _PRIMARY)
 
 
 def _norm(args: tuple[Expr, ...], scope: Scope) -> Code:
     if len(args) <= 4:
         return _apply(f"norm{len(args)}", args, scope)
-    squares = _sum(tuple(Call("^", (arg, Number(2.0))) for arg in args), scope)
-    scope.use("sqrt")
-    return Code(f"sqrt{'f' if scope.single else ''}({squares.text})", _PRIMARY)
+    squares = tuple(Call("^", (arg, Number(2.0))) for arg in args)
+    return _library("sqrt", (Call("+", squares),), scope)
 
 
 def _inside(code: Code, level: int) -> str:
@@ -214,6 +211,8 @@ def _term(term: Expr, scope: Scope) -> tuple[bool, Code]:
 
 
 def _negative(code: Code) -> Code:
+    if code.text == "0":  # an integer has no negative zero
+        code = _real(code)
     if code.level < _PRODUCT or code.text.startswith("-"):
         return Code(f"-({code.text})", _UNARY, code.whole)
     # Signs are exact: -(a*b) and (-a)*b agree to the last bit.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from textwrap import wrap
 
 from nsode.backends.c import solve
 from nsode.backends.c.expressions import condition, lower
@@ -14,6 +15,7 @@ from nsode.expr import TIME, Index, IndexRange, Name, Sum
 from nsode.ode import Binding, LinearSolve
 
 _LOOP_VARIABLES = "ijk"
+_WIDEST = 100
 
 
 def body(program: Program, works: Iterable[Work]) -> list[str]:
@@ -34,7 +36,7 @@ class Writer:
     program: Program
     plan: Plan
     lines: list[str] = field(default_factory=list)
-    loads: dict[str, str] = field(default_factory=dict)
+    loads: dict[tuple[int, int], str] = field(default_factory=dict)
     indices: dict[str, str | int] = field(default_factory=dict)
     depth: int = 1
     loops: int = 0
@@ -49,11 +51,11 @@ class Writer:
         """Return what stands at the top: values read, then arrays of the function."""
         names = self.program.bindings
         arrays = [f"    real {names[b]}[{len(over)}];" for b, over in self.plan.stored.items()]
-        return [*(f"    {line}" for line in self.loads.values()), *arrays]
+        return [*(f"    {self.loads[place]}" for place in sorted(self.loads)), *arrays]
 
     def line(self, text: str) -> None:
         """Add a line at the indentation at hand."""
-        self.lines.append("    " * self.depth + text)
+        self.lines.extend(wrapped("    " * self.depth + text))
 
     def group(self, group: Group) -> None:
         """Write the work of a group, in its loop if it has one."""
@@ -161,9 +163,9 @@ class Writer:
         """Return the C text of a named value."""
         if name.id == TIME and name.at is None:
             return TIME
-        for vector in (self.program.x, self.program.p, self.program.u):
+        for order, vector in enumerate((self.program.x, self.program.u, self.program.p)):
             if name.id in vector.slots:
-                return self._loaded(vector, name)
+                return self._loaded(order, vector, name)
         local = self.program.bindings[name.id]
         if name.at is None or name.id not in self.plan.stored:
             return local
@@ -177,14 +179,14 @@ class Writer:
             self.line(f"{total} += {lower(expr.body, self)};")
         return total
 
-    def _loaded(self, vector: Vector, name: Name) -> str:
+    def _loaded(self, order: int, vector: Vector, name: Name) -> str:
         local = vector.names[name.id]
         place = self.program.enumerator(vector, name.id)
-        over = vector.slots[name.id].range
+        offset, over = vector.slots[name.id]
         if over is None or name.at is None:
-            self.loads[local] = f"const real {local} = {vector.letter}[{place}];"
+            self.loads[order, offset] = f"const real {local} = {vector.letter}[{place}];"
             return local
-        self.loads[local] = f"const real *const {local} = {vector.letter} + {place};"
+        self.loads[order, offset] = f"const real *const {local} = {vector.letter} + {place};"
         return f"{local}[{_offset(self._at(name.at), name.at.offset - over.first)}]"
 
     def _at(self, index: Index) -> str | int:
@@ -196,6 +198,18 @@ class Writer:
     def _added(self, place: str, at: Index, first: int) -> str:
         where = _offset(self._at(at), at.offset - first)
         return place if where == "0" else f"{place} + {where}"
+
+
+def wrapped(line: str) -> list[str]:
+    """Break a long line of C at its spaces, but not behind ``const``."""
+    if len(line) <= _WIDEST:
+        return [line]
+    indent = " " * (len(line) - len(line.lstrip()) + 4)
+    glued = line.replace("const ", "const\0")
+    parts = wrap(
+        glued, _WIDEST, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    )
+    return [part.replace("\0", " ") for part in parts]
 
 
 def _offset(at: str | int, offset: int) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from nsode.backends.c.function import wrapped
 from nsode.backends.c.program import Program, Vector
 from nsode.integrators import REGISTRY
 
@@ -49,7 +50,8 @@ def header(program: Program) -> str:
     """Return the text of the header."""
     prefix = program.prefix
     functions = "".join(
-        f"/* {_comment(name)} */\n{head};\n" for name, head in prototypes(program).items()
+        "\n".join([f"/* {_comment(name)} */", *wrapped(f"{head};"), ""])
+        for name, head in prototypes(program).items()
     )
     return f"""\
 /* Written by nsode: the augmented ODE of a model, in plain C. */

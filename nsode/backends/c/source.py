@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from itertools import chain
 
 from nsode.backends.c import tables, work
-from nsode.backends.c.function import body
+from nsode.backends.c.function import body, wrapped
 from nsode.backends.c.header import prototypes
 from nsode.backends.c.helpers import need_math, with_helpers
 from nsode.backends.c.program import Program
@@ -46,21 +47,29 @@ def _cores(program: Program) -> list[str]:
     return cores
 
 
+def _heads(program: Program) -> dict[str, str]:
+    """Return the heads of the interface with the short name for a number."""
+    long = f"{program.prefix}_real "
+    return {name: head.replace(long, "real ") for name, head in prototypes(program).items()}
+
+
 def _interface(program: Program) -> list[str]:
     ok = f"    return {program.prefix}_OK;"
-    heads = prototypes(program)
-    start: list[str] = []
-    for phase in work.start(program):
-        start += _block(body(program, phase))
+    heads = _heads(program)
     return [
         _function(heads["rhs"], [*_guard(program), "    return rates(t, x, u, p, dx);"]),
         _function(heads["out"], [*body(program, work.outputs(program)), ok]),
-        _function(heads["init"], [*start, ok]),
+        _function(heads["init"], [*_start(program), ok]),
     ]
 
 
+def _start(program: Program) -> list[str]:
+    first, *later = (body(program, phase) for phase in work.start(program) or [[]])
+    return [*first, *chain.from_iterable(map(_block, later))]
+
+
 def _steps(program: Program) -> list[str]:
-    heads = prototypes(program)
+    heads = _heads(program)
     return [
         finish(program),
         *(
@@ -89,11 +98,11 @@ def _block(lines: Sequence[str]) -> list[str]:
 
 
 def _function(head: str, lines: Sequence[str]) -> str:
-    """Return a function; arguments that its body does not use are named as such."""
+    """Return a function; arguments that its body does not use are voided."""
     text = "\n".join(lines)
     arguments = (part.split()[-1].lstrip("*") for part in head.split("(")[1].rstrip(")").split(","))
     unused = [f"    (void){name};" for name in arguments if not _mentions(text, name)]
-    return "\n".join([head, "{", *unused, *lines, "}", ""])
+    return "\n".join([*wrapped(head), "{", *unused, *lines, "}", ""])
 
 
 def _mentions(text: str, name: str) -> bool:
