@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
+
+if os.access(f"{__path__[0]}/../grammar/di.lark", os.R_OK):
+    # In a clone, `grammar` and `models` stand beside this package and not inside it.
+    __path__.append(f"{__path__[0]}/..")
 
 if TYPE_CHECKING:
     from nsode.compiler import Model as Model

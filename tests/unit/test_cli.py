@@ -22,7 +22,7 @@ M*der(v) = -0.5*sgn(v)
 approximate sgn1: K = 1e5, beta = 4e-3
 """
 REFUSED = "model block\nparameter u = 1\nstate v = 1\nder(v) = -w*sgn(v)\n"
-NSODE = [sys.executable, "-m", "nsode"]
+NSODE = [sys.executable, "-P", "-m", "nsode"]
 
 
 @pytest.fixture
@@ -55,7 +55,7 @@ def test_help_names_every_command_and_imports_none_of_them():
         "import sys; from nsode.cli import run; run(['--help'])\n"
         "print(*sys.modules, file=sys.stderr)"
     )
-    told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    told = subprocess.run([sys.executable, "-P", "-c", program], capture_output=True, text=True)
     assert told.returncode == 0
     assert all(f"\n  {name} " in told.stdout for name in COMMANDS)
     modules = told.stderr.split()

@@ -1,11 +1,14 @@
 from __future__ import annotations
 
 import importlib.util
+import sys
 import tomllib
 from importlib.resources import files
 from pathlib import Path
 
 import pytest
+
+from support.native import run_tool
 
 ROOT = Path(__file__).parents[2]
 TOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]
@@ -42,6 +45,19 @@ def test_what_is_installed_is_what_the_tree_holds(package):
 def test_pages_of_the_catalog_are_installed():
     for page in ROOT.glob("nsode/catalog/*.md"):
         assert files("nsode").joinpath("catalog", page.name).read_bytes() == page.read_bytes()
+
+
+def test_a_clone_works_before_it_is_installed():
+    program = (
+        f"import sys; sys.path.insert(0, {str(ROOT)!r})\n"
+        "import nsode, nsode.models; print(nsode.__file__, nsode.models.__file__)\n"
+        "nsode.loads('model m\\nstate v = 1\\nder(v) = -v')"
+    )
+    told = run_tool([sys.executable, "-P", "-c", program]).stdout.split()
+    assert [Path(path).resolve() for path in told] == [
+        ROOT / "nsode" / "__init__.py",
+        ROOT / "models" / "__init__.py",
+    ]
 
 
 def test_every_layer_of_the_contract_exists_or_is_marked_as_to_come():
