@@ -46,6 +46,7 @@ class Declarations:
     inputs: list[Input] = field(default_factory=list)
     states: list[State] = field(default_factory=list)
     checks: list[Check] = field(default_factory=list)
+    _places: dict[str, int] = field(default_factory=dict)
 
     @property
     def scope(self) -> Scope:
@@ -104,9 +105,9 @@ class Declarations:
         unit = None if declaration.unit is None else declaration.unit.text
         self.symbols.define(Symbol(name.text, "state", of, over, name.span, unit))
         zero = Number(0.0, span=declaration.initial.span)
-        self.states.extend(
-            State(name.text + suffix, zero, over, unit, span=name.span) for suffix in suffixes(of)
-        )
+        for suffix in suffixes(of):
+            self._places[name.text + suffix] = len(self.states)
+            self.states.append(State(name.text + suffix, zero, over, unit, span=name.span))
 
     def initial(self, declaration: StateDeclaration, scope: Scope) -> None:
         """Give a state its value at the start, once every name is known."""
@@ -116,9 +117,8 @@ class Declarations:
         if symbol.range is not None and shape(value) == (len(symbol.range), *symbol.shape):
             value = _listed(value, symbol)
         self._fits(value, symbol.shape, declaration.declarator)
-        where = {s.name: k for k, s in enumerate(self.states)}
         for suffix, part in zip(suffixes(symbol.shape), scalars(value), strict=True):
-            k = where[symbol.name + suffix]
+            k = self._places[symbol.name + suffix]
             converted = in_si(part, declaration.unit)
             self.states[k] = replace(self.states[k], initial=converted)
 

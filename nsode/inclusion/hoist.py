@@ -56,7 +56,7 @@ class Hoister:
     terms: list[RawTerm] = field(default_factory=list)
     _range: RangeSyntax | None = None
     _force: Identifier | None = None
-    _outermost: list[RawTerm] = field(default_factory=list)
+    _outermost: list[int] = field(default_factory=list)
     _inside: int = 0
 
     def hoist(self, expr: Expr, range: RangeSyntax | None) -> Expr:
@@ -88,9 +88,10 @@ class Hoister:
                 "neither `dio` nor `sgn` stands here",
                 help=f"write `let {name.text} = ...`",
             )
-        term = self._outermost[0]
+        at = self._outermost[0]
+        term = self.terms[at]
         if _bare(rest) == self._place(term):
-            self.terms[self.terms.index(term)] = replace(term, multiplier=name.text)
+            self.terms[at] = replace(term, multiplier=name.text)
             return None
         return rest
 
@@ -199,7 +200,7 @@ class Hoister:
         term = RawTerm(name, kind, argument, factor, multiplier, self._range, span, not outermost)
         self.terms.append(term)
         if outermost:
-            self._outermost.append(term)
+            self._outermost.append(len(self.terms) - 1)
         return term
 
     def _second(self, span: Span) -> ModelError:
@@ -209,7 +210,7 @@ class Hoister:
                 Diagnostic(
                     "NS205",
                     f"the force `{self._force.text}` holds more than one set-valued term",
-                    (Label(span, "a second one"), Label(self._outermost[0].span, "the first")),
+                    (Label(span, "a second one"), Label(self.terms[self._outermost[0]].span, "the first")),
                     help="give each a `force` of its own and add them in a `let`",
                 )
             ]

@@ -82,11 +82,12 @@ def _phases(program: Program) -> list[list[State]]:
     phases: list[list[State]] = []
     left = list(program.ode.states)
     while left:
-        ready = [state for state in left if not waiting[state.name] & {s.name for s in left}]
+        open_names = {state.name for state in left}
+        ready = [state for state in left if waiting[state.name].isdisjoint(open_names)]
         if not ready:
             raise ValueError(f"`{left[0].name}` at the start depends on itself")
         phases.append(ready)
-        left = [state for state in left if state not in ready]
+        left = [state for state in left if not waiting[state.name].isdisjoint(open_names)]
     return phases
 
 
