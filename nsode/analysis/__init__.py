@@ -1,1 +1,8 @@
 """What can be known before a run: effective mass, stable steps, energy, restitution."""
+
+from nsode.analysis.analyze import analyze, warnings
+from nsode.analysis.energy import ledger
+from nsode.analysis.restitution import impact, mapped_restitution
+from nsode.analysis.result import Analysis
+
+__all__ = ["Analysis", "analyze", "impact", "ledger", "mapped_restitution", "warnings"]

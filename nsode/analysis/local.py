@@ -5,8 +5,8 @@ The derivatives are formed once, as expressions; :meth:`Scene.at` evaluates them
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 
@@ -28,6 +28,7 @@ from nsode.ode import (
     element_names,
     layout,
 )
+from nsode.rewrite.constants import constants
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +78,8 @@ class Local:
         x' without any multiplier.
     state, force : (n, n) and (n, m) arrays
         d(x')/dx and d(x')/d(lambda).
-    argument : (m,) array
-        The gaps and sliding velocities.
+    argument, velocity : (m,) arrays
+        The gaps and sliding velocities; psi' for dio and again theta for sgn.
     slope : (m, n) array
         d(argument)/dx.
     motion, lift : (m, n) and (m, m) arrays
@@ -93,6 +94,7 @@ class Local:
     state: Matrix
     force: Matrix
     argument: Vector
+    velocity: Vector
     slope: Matrix
     motion: Matrix
     lift: Matrix
@@ -107,6 +109,7 @@ class Scene:
 
     def __init__(self, inclusion: DifferentialInclusion) -> None:
         self.inclusion = inclusion
+        self.parameters = constants(inclusion)
         self.states = layout(inclusion.states)
         self.state_names = element_names(inclusion.states)
         self.multipliers = _slots(inclusion.terms)
@@ -148,13 +151,27 @@ class Scene:
     @cached_property
     def start(self) -> Point:
         """The point where a run starts, without any multiplier."""
-        point = start(self.inclusion)
+        point = start(self.inclusion, self.parameters)
         point.define(self.definitions[len(self.inclusion.bindings) :])
         return point
 
+    @cached_property
+    def start_state(self) -> Vector:
+        """The state where a run starts."""
+        return np.array([v for name in self.states for v in self.start.values[name]])
+
+    @cached_property
+    def gaps_bend(self) -> bool:
+        """Whether a gap is not affine in the state, or moves with time or an input."""
+        contacts = tuple(self._contacts())
+        sources = {TIME, *(entry.name for entry in self.inclusion.inputs)}
+        return self.moves(self._linearized(contacts)) or any(
+            reads(row.value) & self._depending(sources) for row in contacts
+        )
+
     def point(self, x: Sequence[float], t: float = 0.0) -> Point:
         """Return a point from a state vector."""
-        point = parameters(self.inclusion)
+        point = parameters(self.inclusion, self.parameters)
         point.set(TIME, None, [t])
         for state in self.inclusion.states:
             offset, span = self.states[state.name]
@@ -173,6 +190,7 @@ class Scene:
             rates,
             *self._blocks(self.of_rates, here, self.states),
             np.array(self._values(self.arguments, here)),
+            np.array(self._values(self.motions, here)),
             self._blocks(self.of_arguments, here, self.multipliers)[0],
             *self._blocks(self.of_motions, here, self.multipliers),
             idle,
@@ -238,10 +256,10 @@ class Scene:
         return tuple(self._constants_of(element.term) for element in self.elements)
 
     def _constants_of(self, term: SetValuedTerm) -> Constants:
-        given = dict(term.approximation.constants)
+        known = self.start.values
 
         def value(name: str) -> float:
-            return self.start.value(given[name])[0] if name in given else np.nan
+            return known.get(f"{term.name}.{name}", [np.nan])[0]
 
         return Constants(
             value("K"), value("alpha") if term.kind == "dio" else np.nan, value("beta")
@@ -249,14 +267,18 @@ class Scene:
 
     def moves(self, jacobian: Jacobian) -> bool:
         """Whether the entries of a Jacobian depend on time, inputs or the state."""
-        definitions = (*self.definitions, *jacobian.definitions)
         sources = {*self.states, *self.multipliers, TIME}
         sources |= {entry.name for entry in self.inclusion.inputs}
+        moving = self._depending(sources, jacobian.definitions)
+        return any(reads(entry.value) & moving for entry in jacobian.entries)
+
+    def _depending(self, sources: set[str], further: Sequence[Definition] = ()) -> set[str]:
+        """Return the sources and every definition that reads one of them."""
         moving = set(sources)
-        for item in definitions:
+        for item in (*self.definitions, *further):
             if any(reads(expr) & moving for expr in _expressions(item)):
                 moving.update(defined(item))
-        return any(reads(entry.value) & moving for entry in jacobian.entries)
+        return moving
 
 
 def reads(expr: Expr) -> set[str]:
@@ -308,14 +330,3 @@ def _factors(terms: Sequence[SetValuedTerm]) -> Iterable[Row]:
 def _length(slots: Iterable[Slot]) -> int:
     ends = (s.offset + (1 if s.range is None else len(s.range)) for s in slots)
     return max(ends, default=0)
-
-
-def with_parameters(
-    inclusion: DifferentialInclusion, values: Mapping[str, float]
-) -> DifferentialInclusion:
-    """Return the inclusion with other values of scalar parameters."""
-    changed = (
-        replace(p, values=(values[p.name],), formula=None) if p.name in values else p
-        for p in inclusion.parameters
-    )
-    return replace(inclusion, parameters=tuple(changed))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from nsode.derivative import Entry, pattern
 from nsode.evaluate import evaluate
 from nsode.expr import TIME, Expr, IndexRange
-from nsode.ode import Binding, Definition, LinearSolve, SetValuedTerm, Slot, System, size
+from nsode.ode import Binding, Definition, LinearSolve, Parameter, SetValuedTerm, Slot, System, size
 
 Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
@@ -72,24 +72,24 @@ class _Item:
     range: IndexRange | None
 
 
-def parameters(system: System, given: Mapping[str, Sequence[float]] | None = None) -> Point:
-    """Return a point that knows the time 0, the parameters and the inputs' defaults."""
+def parameters(system: System, constants: Iterable[Parameter] = ()) -> Point:
+    """Return a point that knows the time 0, the parameters and the inputs' defaults.
+
+    ``constants`` are those of the approximation, where the system does not hold them.
+    """
     point = Point()
     point.set(TIME, None, [0.0])
-    for item in system.parameters:
-        values = (given or {}).get(item.name, item.values)
-        if item.formula is not None and item.name not in (given or {}):
-            values = point.value(item.formula, item.range)
-        point.set(item.name, item.range, values)
+    for item in (*system.parameters, *constants):
+        point.set(item.name, item.range, item.values)
     for entry in system.inputs:
         value = 0.0 if entry.default is None else entry.default
         point.set(entry.name, entry.range, [value] * size(entry))
     return point
 
 
-def start(system: System) -> Point:
+def start(system: System, constants: Iterable[Parameter] = ()) -> Point:
     """Return the point where a run starts; what reads the bindings starts last."""
-    point = parameters(system)
+    point = parameters(system, constants)
     late = []
     for state in system.states:
         try:

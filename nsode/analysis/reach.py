@@ -15,6 +15,7 @@ import numpy as np
 from nsode.analysis.point import Matrix, Vector
 
 _TOLERANCE = 1e-9
+_MOST_QUESTIONS = 3000  # beyond, further conflicts stay unknown: more sets, never fewer
 
 
 def conflicts(slope: Matrix, clearance: Vector) -> list[frozenset[int]]:
@@ -40,7 +41,7 @@ def _search(
     seen: set[frozenset[int]],
 ) -> None:
     """Gather the smallest conflicts inside ``closed``: each is broken by dropping a member."""
-    if closed in seen:
+    if closed in seen or len(seen) >= _MOST_QUESTIONS:
         return
     seen.add(closed)
     conflict = next((c for c in found if c <= closed), None)

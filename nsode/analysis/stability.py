@@ -2,7 +2,9 @@
 
 The limit counts the eigenvalues that the regularization adds. They are told from the
 model's own by making the regularization faster: with K s^2, alpha/s and beta/s its
-eigenvalues move with s, and the model's own stay where they are.
+eigenvalues move with s, and the model's own stay where they are. A mode that grows by
+itself (friction can feed contacts that press at the same time) is no matter of the step;
+such modes are listed apart.
 """
 
 from __future__ import annotations
@@ -23,6 +25,7 @@ Spectrum = NDArray[np.complex128]
 
 _FASTER = 1.0371  # any factor that no model has between two of its own eigenvalues
 _ZERO = 1e-6  # of the largest eigenvalue: what rounding leaves of a zero
+_GROWING = 1e-9  # of its magnitude: what rounding leaves of a real part of zero
 _CLOSEST = 64  # candidates that are looked at exactly
 
 
@@ -31,6 +34,14 @@ class Worst:
     """The largest step of a method, and what sets it: an eigenvalue in an active set."""
 
     step: float
+    eigenvalue: complex
+    active: ActiveSet
+
+
+@dataclass(frozen=True, slots=True)
+class Growing:
+    """A mode that grows by itself, and the active set in which it does."""
+
     eigenvalue: complex
     active: ActiveSet
 
@@ -93,13 +104,11 @@ def _scanned_radius(stability: Callable[[complex], complex], angle: float) -> fl
     return inner
 
 
-@lru_cache(maxsize=64)
 def half_disc(scheme: Scheme) -> float:
     """Return the radius of the largest half disc in the left half-plane that is stable."""
     return min(radius(scheme, float(angle)) for angle in np.linspace(np.pi / 2, np.pi, 181))
 
 
-@lru_cache(maxsize=64)
 def _table(scheme: Scheme) -> tuple[Vector, Vector]:
     angles = np.linspace(np.pi / 2, np.pi, 181)
     return angles, np.array([min(radius(scheme, float(a)), 1e9) for a in angles])
@@ -107,11 +116,15 @@ def _table(scheme: Scheme) -> tuple[Vector, Vector]:
 
 @dataclass(frozen=True, slots=True)
 class Modes:
-    """The eigenvalues of a number of active sets, and which of them are added."""
+    """The eigenvalues of a number of active sets, one row for each set.
+
+    ``added`` tells those that the regularization adds, ``present`` those that are not zero.
+    """
 
     sets: Sequence[ActiveSet]
     values: Spectrum
     added: NDArray[np.bool_]
+    present: NDArray[np.bool_]
 
     @classmethod
     def of(
@@ -126,39 +139,54 @@ class Modes:
         stack = np.array([matrix(local, elements, constants, s) for s in sets])
         moved = np.array([matrix(local, elements, faster, s) for s in sets])
         values, after = np.linalg.eigvals(stack) + 0j, np.linalg.eigvals(moved) + 0j
-        largest = np.abs(values).max(axis=1, keepdims=True)
+        values.real[np.abs(values.real) <= _GROWING * np.abs(values)] = 0.0
         with_it = np.abs(after[:, None, :] - _FASTER * values[:, :, None]).min(axis=2)
         behind = np.abs(after[:, None, :] - values[:, :, None]).min(axis=2)
-        return cls(sets, values, (with_it < behind) & (np.abs(values) > _ZERO * largest))
+        present = np.abs(values) > _ZERO * np.abs(values).max(axis=1, keepdims=True)
+        return cls(sets, values, (with_it < behind) & present, present)
 
     def worst(self, scheme: Scheme, own: bool = False) -> Worst | None:
         """Return what limits the step; with ``own``, among the model's own modes."""
-        chosen = ~self.added if own else self.added
-        largest = np.abs(self.values).max(axis=1, keepdims=True)
-        rows, columns = np.nonzero(chosen & (np.abs(self.values) > _ZERO * largest))
+        chosen = (~self.added if own else self.added) & self.present & (self.values.real <= 0)
+        rows, columns = np.nonzero(chosen)
         if not len(rows):
             return None
         found = self.values[rows, columns]
         angles, radii = _table(scheme)
-        guess = np.interp(np.abs(np.angle(found)), angles, radii, left=0.0) / np.abs(found)
-        best: Worst | None = None
-        for k in np.argsort(guess, kind="stable")[:_CLOSEST]:
-            value = complex(found[k].real, abs(found[k].imag))
-            step = reach(scheme, value)
-            if best is None or step < best.step * (1 - 1e-9):
-                best = Worst(step, value, self.sets[rows[k]])
-        return best
+        guess = np.interp(np.abs(np.angle(found)), angles, radii) / np.abs(found)
+        steps = [
+            (reach(scheme, upper(found[k])), int(k))
+            for k in np.argsort(guess, kind="stable")[:_CLOSEST]
+        ]
+        least = min(step for step, _ in steps)
+        step, k = min((pair for pair in steps if pair[0] <= least * (1 + 1e-9)), key=_order)
+        return Worst(step, upper(found[k]), self.sets[int(rows[k])])
+
+    def growing(self) -> Growing | None:
+        """Return the added mode that grows fastest by itself, whatever the step."""
+        rates = np.where(self.added, self.values.real, 0.0)
+        row, column = divmod(int(np.argmax(rates)), rates.shape[1])
+        if rates[row, column] <= 0:
+            return None
+        return Growing(upper(self.values[row, column]), self.sets[row])
 
     def own(self) -> list[complex]:
         """Return the model's own modes, each once, fast ones first."""
+        modes = self.values[~self.added & self.present]
         distinct: list[complex] = []
-        for value in self.values[~self.added]:
-            mode = complex(value.real, abs(value.imag))
-            if abs(mode) > _ZERO * np.abs(self.values).max() and not any(
-                abs(mode - other) <= 1e-6 * abs(mode) for other in distinct
-            ):
+        for mode in map(upper, modes[np.argsort(-np.abs(modes), kind="stable")]):
+            if not any(abs(mode - other) <= 1e-6 * abs(mode) for other in distinct):
                 distinct.append(mode)
-        return sorted(distinct, key=abs, reverse=True)
+        return distinct
+
+
+def _order(pair: tuple[float, int]) -> int:
+    return pair[1]
+
+
+def upper(eigenvalue: complex) -> complex:
+    """Return the one of a conjugate pair that has no negative imaginary part."""
+    return complex(eigenvalue.real, abs(eigenvalue.imag))
 
 
 def sped_up(given: Constants, by: float = _FASTER) -> Constants:

@@ -112,7 +112,17 @@ def rolling_sphere():
     return inclusion(
         "rolling_sphere",
         {"M": 1.0, "R": 0.5, "mu": 0.1, "g": 9.8},
-        {"p.x": 0, "p.y": 0, "p.z": 1, "v.x": 5.5, "v.y": 0, "v.z": 0, "w.x": 0, "w.y": 0, "w.z": 0},
+        {
+            "p.x": 0,
+            "p.y": 0,
+            "p.z": 1,
+            "v.x": 5.5,
+            "v.y": 0,
+            "v.z": 0,
+            "w.x": 0,
+            "w.y": 0,
+            "w.z": 0,
+        },
         [
             Binding("slip.x", minus("v.x", times("R", "w.y"))),
             Binding("slip.y", plus("v.y", times("R", "w.x"))),

@@ -1,0 +1,135 @@
+"""W in symbols, for small scenes, through SymPy (loaded here and nowhere sooner)."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from typing import Any
+
+from nsode.analysis.local import Scene
+from nsode.analysis.mass import EffectiveMass
+from nsode.expr import Call, Expr, If, Index, Name, Number, Sum
+from nsode.ode import Binding
+
+#: More multipliers than these are shown in numbers only.
+MOST = 8
+
+_MATH = {"sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh"}
+
+
+class _NoFormulaError(Exception):
+    """An entry that has no short formula."""
+
+
+def formulas(scene: Scene, mass: EffectiveMass) -> tuple[tuple[str, ...], ...] | None:
+    """Return W in symbols; None where SymPy is missing, or the scene is large or has kinks."""
+    families = any(term.range for term in scene.inclusion.terms)
+    if not mass.names or len(mass.names) > MOST or families or find_spec("sympy") is None:
+        return None
+    import sympy
+
+    try:
+        return tuple(
+            tuple(str(sympy.factor(entry)) for entry in row) for row in _Symbols(scene).matrix(mass)
+        )
+    except _NoFormulaError:
+        return None
+
+
+class _Symbols:
+    """Values of definitions as SymPy expressions of parameters and states."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.known: dict[str, Any] = {}
+        further = (*scene.of_rates.definitions, *scene.of_motions.definitions)
+        self.definitions = {
+            item.name: item.value
+            for item in (*scene.definitions, *further)
+            if isinstance(item, Binding) and item.range is None
+        }
+        self.plain = {p.name for p in scene.inclusion.parameters if p.range is None}
+        self.plain |= {s.name for s in scene.inclusion.states if s.range is None} | {"t"}
+
+    def matrix(self, mass: EffectiveMass) -> list[list[Any]]:
+        scene, size = self.scene, len(mass.names)
+        motion: dict[tuple[int, str], Any] = {}
+        w = [[self.number(0.0)] * size for _ in range(size)]
+        for entry in scene.of_motions.entries:
+            row = scene.multipliers[entry.row.id].offset
+            if entry.column.id in scene.multipliers:
+                column = scene.multipliers[entry.column.id].offset
+                if mass.degrees[row] == 1:
+                    w[row][column] += self.value(entry.value)
+            elif entry.ranges or entry.column.at is not None:
+                raise _NoFormulaError
+            else:
+                key = (row, entry.column.id)
+                motion[key] = motion.get(key, 0) + self.value(entry.value)
+        self._through_states(mass, motion, w)
+        return w
+
+    def _through_states(
+        self, mass: EffectiveMass, motion: dict[tuple[int, str], Any], w: list[list[Any]]
+    ) -> None:
+        contacts = {row for e in self.scene.elements if e.is_contact for row in e.rows}
+        for entry in self.scene.of_rates.entries:
+            if entry.column.id not in self.scene.multipliers:
+                continue
+            if entry.ranges or entry.row.at is not None:
+                raise _NoFormulaError
+            column = self.scene.multipliers[entry.column.id].offset
+            for row in range(len(w)):
+                slope = motion.get((row, entry.row.id))
+                direct = row in contacts and mass.degrees[row] == 1
+                if slope is not None and not direct:
+                    sign = 1 if row in contacts else -1
+                    w[row][column] += sign * slope * self.value(entry.value)
+
+    def value(self, expr: Expr) -> Any:  # noqa: ANN401  SymPy has no types
+        match expr:
+            case Number(number):
+                return self.number(number)
+            case Name(id, None):
+                return self._name(id)
+            case Call(function, args):
+                return self._call(function, [self.value(arg) for arg in args])
+            case If() | Sum() | Index() | Name():
+                raise _NoFormulaError
+            case _:
+                raise NotImplementedError(f"no formula of {type(expr).__name__}")
+
+    def number(self, value: float) -> Any:  # noqa: ANN401
+        import sympy
+
+        return sympy.Rational(repr(value))
+
+    def _name(self, name: str) -> Any:  # noqa: ANN401
+        import sympy
+
+        if name not in self.known:
+            if name in self.definitions:
+                self.known[name] = self.value(self.definitions[name])
+            elif name in self.plain:
+                self.known[name] = sympy.Symbol(name, real=True)
+            else:
+                raise _NoFormulaError
+        return self.known[name]
+
+    def _call(self, function: str, args: list[Any]) -> Any:  # noqa: ANN401
+        import sympy
+
+        match function:
+            case "+":
+                return sum(args[1:], args[0])
+            case "neg":
+                return -args[0]
+            case "*":
+                return args[0] * args[1]
+            case "/":
+                return args[0] / args[1]
+            case "^":
+                return args[0] ** args[1]
+            case _ if function in _MATH:
+                return getattr(sympy, function)(*args)
+            case _:
+                raise _NoFormulaError

@@ -1,0 +1,205 @@
+"""The largest stable step of each method, what limits it, and what would change it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nsode.analysis.local import Constants, Element, Local, Scene
+from nsode.analysis.reach import conflicts
+from nsode.analysis.sets import CONTACT, MOST_SETS, ActiveSet, Family, matrix
+from nsode.analysis.stability import Modes, Worst, bound, half_disc, reach
+from nsode.integrators import Scheme
+
+_ROUNDS = 6
+_NUDGE = 0.99
+
+
+@dataclass(frozen=True, slots=True)
+class StableStep:
+    """The largest step with which a method holds every mode that the regularization adds.
+
+    Attributes
+    ----------
+    step : float
+        In seconds. Where the sets are too many to look at each, the proven bound, or
+        the least that a search found where the method has none.
+    proven : bool
+        Whether every active set is within ``step``.
+    found : float
+        The least limit among the sets that were looked at, whose mode follows.
+    eigenvalue : complex
+        Of the limiting mode, in 1/s.
+    modes : tuple of (element, mode)
+        The limiting active set.
+    own : float, optional
+        The same limit for the model's own modes; 0: no margin (an undamped spring).
+    change : tuple of (constant, exponent)
+        What moves the limit most: it grows as ``constant**exponent``.
+    """
+
+    method: str
+    step: float
+    proven: bool
+    found: float
+    eigenvalue: complex
+    modes: tuple[tuple[str, str], ...]
+    own: float | None
+    change: tuple[tuple[str, float], ...]
+
+    @property
+    def frequency(self) -> float:
+        """The magnitude of the eigenvalue, in rad/s."""
+        return abs(self.eigenvalue)
+
+    @property
+    def damping(self) -> float:
+        """The damping ratio of the limiting mode, 1 where it does not oscillate."""
+        return -self.eigenvalue.real / abs(self.eigenvalue)
+
+
+@dataclass(frozen=True, slots=True)
+class Reachable:
+    """A scene at a point with its active sets; ``sets`` None where they are too many."""
+
+    scene: Scene
+    local: Local
+    family: Family
+    sets: tuple[ActiveSet, ...] | None
+
+    @property
+    def elements(self) -> Sequence[Element]:
+        """The elements of the scene."""
+        return self.scene.elements
+
+    @property
+    def constants(self) -> Sequence[Constants]:
+        """Their constants."""
+        return self.scene.constants
+
+    def named(self, active: ActiveSet) -> tuple[tuple[str, str], ...]:
+        """Return what each element does in a set, by names."""
+        return tuple((e.name, str(mode)) for e, mode in zip(self.elements, active, strict=True))
+
+    def modes(self, sets: Sequence[ActiveSet]) -> Modes:
+        """Return the eigenvalues of some sets."""
+        return Modes.of(self.local, self.elements, self.constants, sets)
+
+
+def reachable(scene: Scene, local: Local, most: int = MOST_SETS) -> Reachable:
+    """Return the active sets of a scene that one state can reach.
+
+    Gaps that are not affine in the state, or that move with time, exclude nothing. More
+    than ``most`` sets are not listed.
+    """
+    rows = [row for e in scene.elements if e.is_contact for row in e.rows]
+    excluded: list[frozenset[int]] = []
+    if len(rows) > 1 and not scene.gaps_bend:
+        slope = local.slope[rows]
+        excluded = conflicts(slope, local.argument[rows] - slope @ scene.start_state)
+    family = Family(scene.elements, local, tuple(excluded))
+    sets = family.listed(most)
+    return Reachable(scene, local, family, None if sets is None else tuple(sets))
+
+
+def stable_steps(
+    points: Sequence[Reachable], schemes: Mapping[str, Scheme]
+) -> dict[str, StableStep]:
+    """Return the least limit over some points for each method that has one."""
+    found: dict[str, StableStep] = {}
+    for place in points:
+        whole = None if place.sets is None else place.modes(place.sets)
+        for name, scheme in schemes.items():
+            step = _stable_step(place, whole, name, scheme)
+            if step is not None and (name not in found or step.step < found[name].step):
+                found[name] = step
+    return found
+
+
+def _stable_step(
+    place: Reachable, whole: Modes | None, name: str, scheme: Scheme
+) -> StableStep | None:
+    modes = whole or _searched(place, scheme)
+    worst, own = modes.worst(scheme), modes.worst(scheme, own=True)
+    if worst is None:
+        return None
+    step, proven = worst.step, whole is not None
+    if not proven and half_disc(scheme) > 0:
+        step = half_disc(scheme) / bound(place.local, place.elements, place.constants)
+        proven = True
+    return StableStep(
+        name,
+        step,
+        proven,
+        worst.step,
+        worst.eigenvalue,
+        place.named(worst.active),
+        None if own is None else own.step,
+        tuple(_elasticities(place, worst, scheme)),
+    )
+
+
+def _elasticities(place: Reachable, worst: Worst, scheme: Scheme) -> list[tuple[str, float]]:
+    """Return how the limit follows each constant, the strongest first, weak ones left out."""
+    found: dict[str, float] = {}
+    if not 0 < worst.step < np.inf:
+        return []
+    for term in dict.fromkeys(element.term.name for element in place.elements):
+        for word, field in (("K", "stiffness"), ("alpha", "alpha"), ("beta", "beta")):
+            nudged = [
+                replace(c, **{field: getattr(c, field) * _NUDGE}) if e.term.name == term else c
+                for e, c in zip(place.elements, place.constants, strict=True)
+            ]
+            values = np.linalg.eigvals(matrix(place.local, place.elements, nudged, worst.active))
+            near = values[np.argmin(np.abs(values - worst.eigenvalue))]
+            power = np.log(reach(scheme, complex(near)) / worst.step) / np.log(_NUDGE)
+            found[f"{term}.{word}"] = round(float(power), 2) + 0.0
+    strong = [(name, power) for name, power in found.items() if abs(power) >= 0.05]
+    return sorted(strong, key=lambda pair: -abs(pair[1]))
+
+
+def _searched(place: Reachable, scheme: Scheme) -> Modes:
+    """Return the sets that a search met: all press, then one change at a time for the worse."""
+    sets = list(_beginnings(place.family))
+    modes = place.modes(sets)
+    worst = modes.worst(scheme)
+    for _ in range(_ROUNDS):
+        if worst is None:
+            return modes
+        sets = list(dict.fromkeys((*sets, *_neighbors(place.family, worst.active))))
+        modes = place.modes(sets)
+        better = modes.worst(scheme)
+        if better is None or better.step >= worst.step:
+            return modes
+        worst = better
+    return modes
+
+
+def _beginnings(family: Family) -> Iterator[ActiveSet]:
+    pressing = set(range(len(family.contacts)))
+    for conflict in family.excluded:
+        if conflict <= pressing:
+            pressing.discard(max(conflict))
+    for chosen in (frozenset(pressing), frozenset[int]()):
+        options = family.options(chosen)
+        for k in range(max(map(len, options))):
+            yield tuple(modes[min(k, len(modes) - 1)] for modes in options)
+
+
+def _neighbors(family: Family, active: ActiveSet) -> Iterable[ActiveSet]:
+    """Yield the sets in which one contact or one friction does something else."""
+    contacts = [k for k, e in enumerate(family.elements) if e.is_contact]
+    pressing = frozenset(n for n, k in enumerate(contacts) if active[k] == CONTACT)
+    options = family.options(pressing)
+    for k, modes in enumerate(options):
+        yield from ((*active[:k], mode, *active[k + 1 :]) for mode in modes)
+    for n in range(len(contacts)):
+        changed = pressing ^ {n}
+        if not any(conflict <= changed for conflict in family.excluded):
+            after = family.options(changed)
+            yield tuple(
+                mode if mode in modes else modes[0]
+                for mode, modes in zip(active, after, strict=True)
+            )
