@@ -9,6 +9,7 @@ from statistics import median
 from typing import NamedTuple
 
 import nsode
+from families import ROW
 from measure import table
 from nsode.ode import element_names
 from support import MODELS
@@ -43,6 +44,7 @@ SCENES = [
         "M1 M2 Ks mu1 mu2 mu3 u g "
         + _constants("N1 N2 N3", "K beta alpha") + " " + _constants("F1 F2 F3", "K beta"),
     ),
+    Scene("row", 1e-3, 200, "M d N.K N.beta N.alpha"),
 ]  # fmt: skip
 
 
@@ -66,9 +68,15 @@ def _row(scene: Scene, flags: str) -> tuple[str, ...]:
     return (scene.name, flags, *numbers)
 
 
+def _text(scene: Scene) -> str:
+    if scene.name == "row":
+        return ROW.format(n=100)
+    [path] = [model for model in MODELS if model.stem == scene.name]
+    return path.read_text(encoding="utf-8")
+
+
 def _build(scene: Scene, flags: str, folder: Path) -> Path:
-    path = next(model for model in MODELS if model.stem == scene.name)
-    model = nsode.load(path)
+    model = nsode.loads(_text(scene))
     model.compile("c", folder)
     place = {name: i for i, name in enumerate(element_names(model.ode.parameters))}
     order = ",".join(str(place[name]) for name in scene.parameters.split())
