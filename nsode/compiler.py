@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import gc
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from nsode.backends import Options
 from nsode.backends import emit as emit_target
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.files import write_all
 from nsode.inclusion import build
-from nsode.ode import AugmentedODE, DifferentialInclusion
+from nsode.ode import AugmentedODE, DifferentialInclusion, size
 from nsode.rewrite import rewrite
-from nsode.rewrite.start import at_start
+from nsode.rewrite.start import at_start, initial_state
 from nsode.source import Source
 from nsode.syntax import decode, parse, read
 
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Model:
     """A compiled model.
 
@@ -39,6 +47,48 @@ class Model:
         """The text that the model was compiled from."""
         return self.ode.source
 
+    @property
+    def x0(self) -> NDArray[np.float64]:
+        """The states at the start, shape (NX,), in SI; NaN where a constant is missing."""
+        import numpy as np
+
+        return np.array(initial_state(self.ode))
+
+    @property
+    def p0(self) -> NDArray[np.float64]:
+        """The parameters, shape (NP,), in SI: the model's own, then the constants."""
+        import numpy as np
+
+        return np.array([value for p in self.ode.parameters for value in p.values])
+
+    def with_parameters(self, values: Mapping[str, float | Sequence[float]]) -> Model:
+        """Return the model with other parameters, as ``{"N.K": 1e6, "mu": 0.2}``.
+
+        Constants that are formulas of what changed follow.
+
+        Raises
+        ------
+        ModelError
+            NS101 for an unknown name, NS307 for a value that breaks what was proved
+            with the old one, NS501 for one that is not finite.
+        """
+        from nsode.simulate.parameters import parameters
+
+        vector = parameters(self.ode, values).tolist()
+        changed = []
+        for parameter in self.ode.parameters:
+            count = size(parameter)
+            mine, vector = tuple(vector[:count]), vector[count:]
+            given = parameter.name in values
+            formula = None if given else parameter.formula
+            changed.append(replace(parameter, values=mine, formula=formula))
+        own = tuple(p for p in changed if p.constant_of is None)
+        return replace(
+            self,
+            inclusion=replace(self.inclusion, parameters=own),
+            ode=replace(self.ode, parameters=tuple(changed)),
+        )
+
     def emit(self, target: str, options: Options = Options()) -> dict[str, str]:
         """Return the files of a target by name, without writing them.
 
@@ -47,7 +97,8 @@ class Model:
         KeyError
             If there is no such target.
         """
-        return emit_target(target, self.ode, options)
+        with _without_collector():
+            return emit_target(target, self.ode, options)
 
     def compile(self, target: str, folder: str | Path, options: Options = Options()) -> list[Path]:
         """Write the files of a target into ``folder``, all of them or none.
@@ -96,9 +147,22 @@ def compile_source(source: Source) -> Model:
     ModelError
         If the model is refused; it names the source.
     """
+    with _without_collector():
+        try:
+            inclusion, diagnostics = build(parse(source))
+            ode = rewrite(inclusion)
+            return Model(inclusion, ode, (*diagnostics, *at_start(ode)))
+        except ModelError as error:
+            raise ModelError(error.diagnostics, source) from None
+
+
+@contextmanager
+def _without_collector() -> Iterator[None]:
+    # Trees hold no cycles; walking a million live nodes again and again costs a third.
+    enabled = gc.isenabled()
+    gc.disable()
     try:
-        inclusion, diagnostics = build(parse(source))
-        ode = rewrite(inclusion)
-        return Model(inclusion, ode, (*diagnostics, *at_start(ode)))
-    except ModelError as error:
-        raise ModelError(error.diagnostics, source) from None
+        yield
+    finally:
+        if enabled:
+            gc.enable()

@@ -30,7 +30,7 @@ def at_start(ode: AugmentedODE) -> tuple[Diagnostic, ...]:
     ModelError
         NS116 where the parameters alone make a rate undefined.
     """
-    start = _Start.of(ode)
+    start = _Start.of(ode, missing=1.0)
     found: dict[Diagnostic, None] = {}
     for rate in ode.rates:
         for indices in _ends(rate):
@@ -44,6 +44,20 @@ def at_start(ode: AugmentedODE) -> tuple[Diagnostic, ...]:
     if errors:
         raise ModelError(errors, ode.source)
     return tuple(found)
+
+
+def initial_state(ode: AugmentedODE) -> list[float]:
+    """Return x at the start, as NAME_init of the generated C does; NaN where unknown."""
+    start = _Start.of(ode, missing=math.nan)
+    found: list[float] = []
+    for state in ode.states:
+        over = state.range
+        for at in [None] if over is None else range(over.first, over.last + 1):
+            try:
+                found.append(start.lookup(state.name, at))
+            except _GiveUpError:
+                found.append(math.nan)
+    return found
 
 
 def _ends(rate: Rate) -> Iterator[dict[str, int]]:
@@ -64,7 +78,7 @@ class _Start:
     depth: int = 0
 
     @classmethod
-    def of(cls, ode: AugmentedODE) -> _Start:
+    def of(cls, ode: AugmentedODE, missing: float) -> _Start:
         formulas: dict[str, list[tuple[Expr, IndexRange | None]]] = {}
         for state in ode.states:
             formulas[state.name] = [(state.initial, state.range)]
@@ -77,7 +91,7 @@ class _Start:
             over = parameter.range
             for k, value in enumerate(parameter.values):
                 at = None if over is None else over.first + k
-                start.known[parameter.name, at] = 1.0 if math.isnan(value) else value
+                start.known[parameter.name, at] = missing if math.isnan(value) else value
         for binding in bindings:  # in order, so that long chains need no recursion
             if binding.range is None:
                 try:
