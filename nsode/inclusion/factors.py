@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
-from nsode.expr import Call, Expr, If, Index, Name, Number, children, negate, subtract
+from nsode.expr import Call, Expr, If, Index, Name, Number, children, subtract
 from nsode.inclusion.signs import Goal, Prover
 from nsode.ode import Check, Parameter, SetValuedTerm
 from nsode.source import Source
@@ -87,28 +88,36 @@ def _unproved(prover: Prover, term: SetValuedTerm, factor: Expr, source: Source)
     )
 
 
-def _culprit(prover: Prover, expr: Expr) -> Expr:
-    """Return the smallest part whose sign stands in the way."""
+class _Culprit(NamedTuple):
+    """The smallest part that stands in the way of a proof, and what it would have to be."""
+
+    part: Expr
+    wanted: Goal
+
+
+def _culprit(prover: Prover, expr: Expr, wanted: Goal = ">=") -> _Culprit:
     match expr:
-        case Call("*" | "/" | "neg", args) | Call("+", args):
+        case Call("+", args) | Call("*", args):
             for arg in args:
-                wanted = negate(arg) if expr.function == "neg" else arg
-                if prover.prove(wanted, ">=") is None:
-                    return _culprit(prover, arg)
-            if expr.function == "/" and prover.prove(args[1], ">") is None:
-                return args[1]
+                if prover.prove(arg, wanted) is None:
+                    return _culprit(prover, arg, wanted)
+        case Call("/", (dividend, divisor)):
+            if prover.prove(dividend, wanted) is None:
+                return _culprit(prover, dividend, wanted)
+            return _culprit(prover, divisor, ">")
         case If(_, then, otherwise):
             for arg in (then, otherwise):
-                if prover.prove(arg, ">=") is None:
-                    return _culprit(prover, arg)
+                if prover.prove(arg, wanted) is None:
+                    return _culprit(prover, arg, wanted)
         case Name(id) if id in prover.numbering.bindings:
             inner = prover.numbering.bindings[id].value
-            return expr if not children(inner) else _culprit(prover, inner)
-    return expr
+            if children(inner):
+                return _culprit(prover, inner, wanted)
+    return _Culprit(expr, wanted)
 
 
-def _reason(prover: Prover, culprit: Expr) -> str:
-    match culprit:
+def _reason(prover: Prover, culprit: _Culprit) -> str:
+    match culprit.part:
         case Name(id) if id in prover.parameters:
             values = prover.parameters[id].values
             return f"the parameter `{id}` is {min(values, default=0):g}"
@@ -116,17 +125,18 @@ def _reason(prover: Prover, culprit: Expr) -> str:
             return f"nothing bounds `{id}` from below"
         case Number(value):
             return f"{value:g} is negative"
-        case Call("/", _):
-            return "the divisor may be zero or negative"
-        case Call(function, _) if function.isalpha():
+        case Call(function, _) if function.isalpha() and function != "neg":
             return f"`{function}` takes both signs"
     return "a part of it takes both signs"
 
 
-def _way_out(prover: Prover, culprit: Expr) -> str:
-    match culprit:
+def _way_out(prover: Prover, culprit: _Culprit) -> str:
+    words = "greater than 0" if culprit.wanted == ">" else "that is not negative"
+    match culprit.part:
         case Name(id) if id in prover.parameters:
-            return f"give `{id}` a value that is not negative"
+            return f"give `{id}` a value {words}"
+        case Name(id) if culprit.wanted == ">":
+            return f"divide by something positive, or state `assume {id} > 0` if it always holds"
         case Name(id):
             return f"write `abs({id})`, or state `assume {id} >= 0` if it always holds"
     return "write `abs(...)` or `max(0, ...)`, or state `assume ... >= 0` if it always holds"

@@ -48,7 +48,7 @@ class Prover:
     bounds: dict[str, set[Goal]] = field(default_factory=dict)
     nonnegative: set[str] = field(default_factory=set)
     _known: dict[tuple[str, Goal], Proof | None] = field(default_factory=dict)
-    _seen: dict[tuple[int, Goal], Proof | None] = field(default_factory=dict)
+    _seen: dict[tuple[int, Goal], tuple[Expr, Proof | None]] = field(default_factory=dict)
 
     def assume(self, expr: Expr, goal: Goal) -> None:
         """Take ``expr goal 0`` for granted; a check guards it elsewhere."""
@@ -59,10 +59,11 @@ class Prover:
         """Return the guards under which ``expr goal 0`` holds, None without a proof."""
         key = (id(expr), goal)
         if key not in self._seen:
-            self._seen[key] = self._assumed(expr, goal)
-            if self._seen[key] is None:
-                self._seen[key] = self._structure(expr, goal)
-        return self._seen[key]
+            proof = self._assumed(expr, goal)
+            if proof is None:
+                proof = self._structure(expr, goal)
+            self._seen[key] = expr, proof  # the expression lives on, so that its id stays its own
+        return self._seen[key][1]
 
     def _assumed(self, expr: Expr, goal: Goal) -> Proof | None:
         if not self.facts or isinstance(expr, Number):
