@@ -75,6 +75,8 @@ def _unproved(prover: Prover, term: SetValuedTerm, factor: Expr, source: Source)
     shown = source.slice(factor.span) or "1"
     argument = source.slice(term.argument[0].span.to(term.argument[-1].span))
     labels = [Label(factor.span, "this factor may change sign")]
+    if not factor.span.start <= culprit.part.span.start < factor.span.end:
+        labels.append(Label(culprit.part.span, "because of this"))
     return ModelError(
         [
             Diagnostic(

@@ -205,12 +205,13 @@ class Hoister:
 
     def _second(self, span: Span) -> ModelError:
         assert self._force is not None
+        first = self.terms[self._outermost[0]]
         return ModelError(
             [
                 Diagnostic(
                     "NS205",
                     f"the force `{self._force.text}` holds more than one set-valued term",
-                    (Label(span, "a second one"), Label(self.terms[self._outermost[0]].span, "the first")),
+                    (Label(span, "a second one"), Label(first.span, "the first")),
                     help="give each a `force` of its own and add them in a `let`",
                 )
             ]
