@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from nsode.simulate import Trajectory
+    from nsode.simulate.inputs import Signal
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Model:
@@ -114,6 +117,61 @@ class Model:
             If they cannot be written; nothing half written stays behind.
         """
         return write_all(self.emit(target, options), Path(folder))
+
+    def simulate(
+        self,
+        duration: float | None = None,
+        step: float | None = None,
+        *,
+        every: int | None = None,
+        method: str | None = None,
+        parameters: Mapping[str, float | Sequence[float]] | None = None,
+        inputs: Mapping[str, Signal] | None = None,
+        x0: Mapping[str, float] | None = None,
+        start: float = 0.0,
+        strict: bool = False,
+        guard: bool = True,
+    ) -> Trajectory:
+        """Run the model as compiled C and return what happened.
+
+        Parameters
+        ----------
+        duration, step
+            In seconds; as the model's ``simulate`` says unless given.
+        every
+            Steps from one stored row to the next.
+        method
+            The name of an integrator.
+        parameters, x0
+            Values for this run by name, in SI: parameters, and states at the start.
+        inputs
+            By name: a number, recorded ``(times, values)``, or a function of an array of
+            times. Values are read at the start of a step and held over it.
+        start
+            The time at which the run starts.
+        strict
+            Refuse what would draw a warning before the run.
+        guard
+            Stop where energy comes from nothing.
+
+        Raises
+        ------
+        ModelError
+            Before the run, if it cannot be made.
+        RunError
+            If it goes wrong; ``error.trajectory`` holds the rows before that.
+        """
+        from nsode.simulate import Manner, Wish, simulate
+
+        return simulate(
+            self.inclusion,
+            self.ode,
+            Wish(duration, step, every, method, start),
+            overrides=parameters,
+            signals=inputs,
+            start=x0,
+            manner=Manner(strict=strict, guard=guard),
+        )
 
 
 def load(path: str | Path) -> Model:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import secrets
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
+from operator import methodcaller
 from pathlib import Path
+from typing import IO
 
 
 def write_all(files: Mapping[str, str], folder: Path) -> list[Path]:
@@ -29,7 +31,7 @@ def write_all(files: Mapping[str, str], folder: Path) -> list[Path]:
     drafts: list[Path] = []
     try:
         for target, text in zip(targets, files.values(), strict=True):
-            drafts.append(_draft(target, text))
+            drafts.append(_draft(target, methodcaller("write", text.encode("utf-8"))))
         for draft, target in zip(drafts, targets, strict=True):
             draft.replace(target)
     finally:
@@ -37,6 +39,24 @@ def write_all(files: Mapping[str, str], folder: Path) -> list[Path]:
             draft.unlink(missing_ok=True)
     _settle(folder)
     return targets
+
+
+def write_binary(path: Path, write: Callable[[IO[bytes]], object]) -> None:
+    """Write one file by a function that fills it, whole or not at all.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written; an older one stays as it was.
+    """
+    if path.is_dir():
+        raise IsADirectoryError(21, "is a directory", str(path))
+    draft = _draft(path, write)
+    try:
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)
+    _settle(path.parent)
 
 
 def create(path: Path, text: str) -> None:
@@ -61,14 +81,14 @@ def _inside(folder: Path, name: str) -> Path:
     return folder / name
 
 
-def _draft(target: Path, text: str) -> Path:
-    """Write ``text`` beside ``target``, down to the disk, under a name of its own."""
+def _draft(target: Path, write: Callable[[IO[bytes]], object]) -> Path:
+    """Fill a file beside ``target``, down to the disk, under a name of its own."""
     draft = target.with_name(f".{target.name}.{secrets.token_hex(6)}")
-    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL
+    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
     try:
         # The mode is that of a plain `open`, which `tempfile` would narrow to the owner.
-        with os.fdopen(os.open(draft, flags, 0o666), "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with os.fdopen(os.open(draft, flags, 0o666), "wb") as file:
+            write(file)
             file.flush()
             os.fsync(file.fileno())
     except BaseException:

@@ -1,0 +1,130 @@
+"""From a model to a library: the system's C compiler, called without a shell."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shlex
+import shutil
+import subprocess
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from hashlib import sha256
+from importlib.resources import files
+from pathlib import Path
+
+from nsode.backends import Options, emit
+from nsode.diagnostics import Diagnostic, ModelError
+from nsode.integrators import REGISTRY
+from nsode.ode import AugmentedODE
+from nsode.simulate import cache
+
+#: Every name in the C begins with this, whatever the model is called.
+PREFIX = "scene"
+
+#: No -ffast-math: it drops the checks for NaN and flushes subnormals in the whole process.
+#: Without contraction, gcc and clang agree bit for bit at every level of optimization.
+_FLAGS = (
+    "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared", "-w",
+    f"-D{PREFIX}_CHECKS",
+)  # fmt: skip
+_FAST = (*_FLAGS, "-O3", "-fno-semantic-interposition", "-fno-tree-slp-vectorize")
+_COMPILERS = ("cc", "gcc", "clang", "tcc")
+_PATIENCE = 600  # seconds for one compilation
+
+
+@dataclass(frozen=True, slots=True)
+class Compiler:
+    """A C compiler: the command, and what tells this version of it from another."""
+
+    command: tuple[str, ...]
+    identity: str
+
+
+def compiler() -> Compiler | None:
+    """Return the C compiler of this machine: that of ``CC``, else the first one known."""
+    named = shlex.split(os.environ.get("CC", ""))
+    for command in ([named] if named else []) + [[name] for name in _COMPILERS]:
+        path = shutil.which(command[0])
+        if path is not None:
+            state = Path(path).resolve().stat()
+            identity = f"{path} {command[1:]} {state.st_size} {state.st_mtime_ns}"
+            return Compiler((path, *command[1:]), identity)
+    return None
+
+
+def library(ode: AugmentedODE, using: Compiler) -> Path:
+    """Return the compiled library of a model, from the cache if it is there.
+
+    Raises
+    ------
+    ModelError
+        NS509 if the compiler fails, NS510 if the cache is not safe.
+    """
+    texts = sources(ode)
+    flags = (*_FAST, "-march=native") if _processor() else _FAST
+    made_of = [using.identity, _processor(), *flags, *texts, *texts.values()]
+    key = sha256("\0".join(made_of).encode()).hexdigest()[:32]
+    return cache.obtain(key, lambda folder: _compile(texts, folder, using, flags))
+
+
+def sources(ode: AugmentedODE) -> dict[str, str]:
+    """Return the C of a model and the loop around it, by file name."""
+    texts = emit("c", ode, Options(prefix=PREFIX))
+    steps = ", ".join(f"{PREFIX}_step_{method}" for method in REGISTRY)
+    loop = files("nsode.simulate").joinpath("run.c").read_text(encoding="utf-8")
+    return {
+        f"{PREFIX}.h": texts[f"{PREFIX}.h"],
+        f"{PREFIX}.c": texts[f"{PREFIX}.c"],
+        "run.c": f"#define STEPS {steps}\n{loop}",
+    }
+
+
+def _compile(texts: Mapping[str, str], folder: Path, using: Compiler, flags: Sequence[str]) -> Path:
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    target = folder / "run.so"
+    told = ""
+    for attempt in (flags, (*_FLAGS, "-O2")):  # an old compiler may not know them all
+        command = [*using.command, *attempt, "-o", str(target), "run.c", "-lm"]
+        try:
+            done = subprocess.run(
+                command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
+                text=True, errors="replace", timeout=_PATIENCE,
+            )  # fmt: skip
+        except subprocess.TimeoutExpired:
+            raise _failed(using, f"not done after {_PATIENCE} s") from None
+        except OSError as error:
+            raise _failed(using, str(error)) from error
+        if done.returncode == 0 and target.is_file():
+            return target
+        told = told or done.stderr.strip() or f"it returned {done.returncode}"
+    raise _failed(using, told)
+
+
+def _failed(using: Compiler, told: str) -> ModelError:
+    lines = told.splitlines()[:3]
+    return ModelError(
+        [
+            Diagnostic(
+                "NS509",
+                f"the C compiler `{' '.join(using.command)}` failed",
+                notes=tuple(lines),
+                help="name a working compiler in CC",
+            )
+        ]
+    )
+
+
+@lru_cache(maxsize=1)
+def _processor() -> str:
+    """Return what tells this processor's instructions from another's; empty if unknown."""
+    wanted = ("model name", "flags", "Features", "CPU part")
+    try:
+        with Path("/proc/cpuinfo").open(encoding="utf-8", errors="replace") as file:
+            first = file.read(16_384).partition("\n\n")[0]
+    except OSError:
+        return ""
+    found = [line for line in first.splitlines() if line.startswith(wanted)]
+    return "\n".join([platform.machine(), *found]) if found else ""

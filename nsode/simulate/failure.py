@@ -1,0 +1,98 @@
+"""What is said of a run that went wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from nsode.diagnostics import Diagnostic, Label, ModelError
+from nsode.integrators import REGISTRY, RungeKutta
+from nsode.ode import AugmentedODE, element_names
+from nsode.simulate.inputs import Inputs
+from nsode.simulate.loop import Record, Vector
+from nsode.simulate.native import BROKEN, NOT_FINITE, SINGULAR, Native
+from nsode.simulate.settings import Settings
+
+if TYPE_CHECKING:
+    from nsode.simulate.trajectory import Trajectory
+
+
+class RunError(ModelError):
+    """A run went wrong; ``trajectory`` holds the rows before that."""
+
+    def __init__(self, cause: Diagnostic, ode: AugmentedODE, trajectory: Trajectory) -> None:
+        super().__init__([cause], ode.source)
+        self.trajectory = trajectory
+
+
+def cause(
+    ode: AugmentedODE, native: Native, settings: Settings, inputs: Inputs, p: Vector, found: Record
+) -> Diagnostic:
+    """Return why the step after the last one of a record failed."""
+    now = settings.start + found.taken * settings.step
+    where = f"in step {found.taken + 1:,} at t = {now:.6g} s"
+    kept = f"{len(found.t):,} rows up to there are kept"
+    if found.status == NOT_FINITE:
+        names = _not_finite(ode, native, settings, now, inputs.at(now), p, found.x)
+        return Diagnostic(
+            "NS504",
+            f"{names} no longer finite {where}",
+            notes=(kept,),
+            help="choose a smaller step; a model that truly grows without bound has no more to say",
+        )
+    if found.status == SINGULAR:
+        message = f"the mass matrix is singular {where}"
+        return Diagnostic("NS113", message, notes=(kept,))
+    if found.status >= BROKEN:
+        check = ode.checks[found.status - BROKEN]
+        text = " ".join(ode.source.slice(check.span).split())
+        assumed = check.kind == "assume"
+        broken = f"`{text}` was assumed" if assumed else f"{check.reason} is negative"
+        return Diagnostic(
+            "NS505",
+            f"a condition of the model does not hold {where}",
+            (Label(check.span, broken),),
+            notes=(kept,),
+        )
+    return Diagnostic("NS504", f"a step returned status {found.status} {where}", notes=(kept,))
+
+
+def interrupted(settings: Settings, found: Record) -> Diagnostic:
+    """Return the remark on a run that somebody stopped."""
+    now = settings.start + found.taken * settings.step
+    message = f"interrupted at t = {now:.6g} s, after {found.taken:,} of {settings.steps:,} steps"
+    return Diagnostic("NS507", message, severity="warning")
+
+
+def _not_finite(
+    ode: AugmentedODE, native: Native, settings: Settings, t: float, u: Vector, p: Vector, x: Vector
+) -> str:
+    """Return which states break; the step is repeated, for the C does not tell."""
+    with np.errstate(all="ignore"):
+        after = _step(native, settings, t, u, p, x)
+    names = element_names(ode.states)
+    bad = [f"`{name}`" for name, value in zip(names, after, strict=True) if not np.isfinite(value)]
+    if not bad:
+        return "a state is"
+    shown = ", ".join(bad[:4]) + (f" and {len(bad) - 4} more" if len(bad) > 4 else "")
+    return f"{shown} {'is' if len(bad) == 1 else 'are'}"
+
+
+def _step(native: Native, settings: Settings, t: float, u: Vector, p: Vector, x: Vector) -> Vector:
+    scheme, h = REGISTRY[settings.method], settings.step
+    if not isinstance(scheme, RungeKutta):
+        return x + h * native.rates(t, x, u, p)
+    slopes: list[Vector] = []
+    for node, row in zip(scheme.c, scheme.a, strict=True):
+        slopes.append(native.rates(t + float(node) * h, x + h * _mean(row, slopes, x), u, p))
+    return x + h * _mean(scheme.b, slopes, x)
+
+
+def _mean(weights: Sequence[Fraction], slopes: Sequence[Vector], like: Vector) -> Vector:
+    mean = np.zeros_like(like)
+    for weight, slope in zip(weights, slopes, strict=True):
+        mean += float(weight) * slope
+    return mean

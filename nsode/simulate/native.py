@@ -1,0 +1,102 @@
+"""A compiled model in this process, called through ctypes, which releases the lock."""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import POINTER, c_double, c_int, c_longlong
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nsode.integrators import REGISTRY
+from nsode.ode import AugmentedODE, size
+from nsode.simulate.build import PREFIX
+
+Vector = NDArray[np.float64]
+
+_reals = POINTER(c_double)
+_METHODS = {name: number for number, name in enumerate(REGISTRY)}
+
+#: Status codes of the generated C; see its header.
+OK, NOT_FINITE, SINGULAR, BROKEN = 0, 1, 2, 16
+
+
+@dataclass(frozen=True, slots=True)
+class Advance:
+    """How far a call of :meth:`Native.run` came: steps taken, and the status it ended with."""
+
+    done: int
+    status: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Native:
+    """The compiled functions of one model. Vectors are contiguous and of the right length."""
+
+    handle: ctypes.CDLL
+    nx: int
+    ny: int
+    path: Path
+
+    def initial(self, p: Vector) -> Vector:
+        """Return the states at the start."""
+        x = np.zeros(max(1, self.nx))
+        self._function("init")(_pointer(p), _pointer(x))
+        return x[: self.nx]
+
+    def rates(self, t: float, x: Vector, u: Vector, p: Vector) -> Vector:
+        """Return the rates, NaN where they cannot be computed."""
+        dx = np.full(max(1, self.nx), np.nan)
+        self._function("rhs")(c_double(t), _pointer(x), _pointer(u), _pointer(p), _pointer(dx))
+        return dx[: self.nx]
+
+    def outputs(self, t: float, x: Vector, u: Vector, p: Vector) -> Vector:
+        """Return the outputs, NaN where they cannot be computed."""
+        y = np.full(max(1, self.ny), np.nan)
+        self._function("out")(c_double(t), _pointer(x), _pointer(u), _pointer(p), _pointer(y))
+        return y[: self.ny]
+
+    def run(
+        self,
+        method: str,
+        clock: tuple[float, float],
+        first: int,
+        count: int,
+        every: int,
+        x: Vector,
+        u: Vector,
+        p: Vector,
+        xs: Vector,
+        ys: Vector,
+    ) -> Advance:
+        """Take ``count`` steps from step ``first`` on, in place; rows go to ``xs``, ``ys``.
+
+        ``clock`` is the start of step 0 and the size of a step; ``u`` has one row, which
+        holds, or one for each step and one for the end.
+        """
+        done = c_longlong()
+        stride = u.shape[1] if len(u) > 1 else 0
+        start, step = clock
+        status = self._function("run")(
+            c_int(_METHODS[method]), c_double(start), c_double(step),
+            c_longlong(first), c_longlong(count), c_longlong(every),
+            _pointer(x), _pointer(u), c_longlong(stride), _pointer(p),
+            _pointer(xs), _pointer(ys), ctypes.byref(done),
+        )  # fmt: skip
+        return Advance(done.value, status)
+
+    def _function(self, name: str) -> ctypes._FuncPointer:
+        function: ctypes._FuncPointer = getattr(self.handle, f"{PREFIX}_{name}")
+        return function
+
+
+def _pointer(array: Vector) -> ctypes._Pointer[c_double]:
+    return array.ctypes.data_as(_reals)
+
+
+def load(ode: AugmentedODE, path: Path) -> Native:
+    """Return the functions in the library of a model."""
+    handle = ctypes.CDLL(str(path))
+    return Native(handle, sum(map(size, ode.states)), sum(map(size, ode.outputs)), path)

@@ -1,0 +1,176 @@
+"""The parameters of one run: defaults, overrides, and what must hold of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nsode.diagnostics import Diagnostic, Label, ModelError, suggest
+from nsode.evaluate import evaluate
+from nsode.expr import Expr, names
+from nsode.ode import AugmentedODE, Check, Parameter, element_names, layout, size
+from nsode.simulate.observe import settled
+
+#: A number, or one for each element of a family.
+Value = float | Sequence[float] | NDArray[np.float64]
+
+
+def parameters(ode: AugmentedODE, given: Mapping[str, Value]) -> NDArray[np.float64]:
+    """Return the vector p with some values overridden, all of it known and sound.
+
+    Raises
+    ------
+    ModelError
+        NS101 for an unknown name, NS105 for a wrong number of values, NS501 for one that
+        is not finite, NS503 for constants without a value, NS307 for an override that
+        breaks what was proved with it.
+    """
+    values = _Values(ode, _overrides(ode, given))
+    vector = np.array([v for item in ode.parameters for v in values.of(item)], dtype=np.float64)
+    lacking = [
+        name
+        for item in ode.parameters
+        if item.formula is None
+        for name, value in zip(element_names([item]), values.of(item), strict=True)
+        if math.isnan(value)
+    ]
+    if lacking:
+        raise ModelError([_lacking(lacking)], ode.source)
+    broken = [
+        _broken(check, ode, values)
+        for check in ode.checks
+        if settled(check, ode) and not values.hold(check)
+    ]
+    if broken:
+        raise ModelError(broken, ode.source)
+    return vector
+
+
+def states(ode: AugmentedODE, start: NDArray[np.float64], given: Mapping[str, float]) -> None:
+    """Put values that a person chose for the start into the vector x.
+
+    Raises
+    ------
+    ModelError
+        NS101 for an unknown name, NS501 for a value that is not finite.
+    """
+    places = {name: place for place, name in enumerate(element_names(ode.states))}
+    for name, value in given.items():
+        if name not in places:
+            raise ModelError([_unknown("state", name, places)])
+        start[places[name]] = _finite(name, value)
+
+
+class _Values:
+    """The value of every parameter, formulas computed from what was overridden."""
+
+    def __init__(self, ode: AugmentedODE, overrides: Mapping[str, list[float]]) -> None:
+        self.items = {item.name: item for item in ode.parameters}
+        self.known = dict(overrides)
+
+    def of(self, item: Parameter) -> list[float]:
+        """Return one value for each element."""
+        if item.name not in self.known:
+            self.known[item.name] = list(item.values)  # the end of a loop, if there were one
+            if item.formula is not None:
+                self.known[item.name] = self.each(item.formula, item)
+        return self.known[item.name]
+
+    def each(self, expr: Expr, over: Parameter | Check) -> list[float]:
+        """Return the value of an expression at each index of a range."""
+        if over.range is None:
+            return [evaluate(expr, self._lookup)]
+        variable, first, last = over.range
+        return [evaluate(expr, self._lookup, {variable: k}) for k in range(first, last + 1)]
+
+    def hold(self, check: Check) -> bool:
+        """Whether a check holds at every index of its range."""
+        return all(self.each(check.condition, check))
+
+    def _lookup(self, name: str, at: int | None) -> float:
+        item = self.items[name]
+        first = 0 if item.range is None else item.range.first
+        return self.of(item)[0 if at is None else at - first]
+
+
+def _overrides(ode: AugmentedODE, given: Mapping[str, Value]) -> dict[str, list[float]]:
+    """Return whole families, where single elements or all of them were given."""
+    slots = layout(ode.parameters)
+    elements = {
+        name: (item, place)
+        for item in ode.parameters
+        for place, name in enumerate(element_names([item]))
+    }
+    found: dict[str, list[float]] = {}
+    for name, value in given.items():
+        numbers = [_finite(name, number) for number in np.atleast_1d(np.asarray(value)).tolist()]
+        if name in slots:
+            item = next(item for item in ode.parameters if item.name == name)
+            found[name] = _spread(name, numbers, size(item))
+        elif name in elements:
+            item, place = elements[name]
+            whole = found.setdefault(item.name, list(item.values))
+            [whole[place]] = _spread(name, numbers, 1)
+        else:
+            raise ModelError([_unknown("parameter", name, [*slots, *elements])])
+    return found
+
+
+def _spread(name: str, numbers: list[float], count: int) -> list[float]:
+    if len(numbers) == 1:
+        return numbers * count
+    if len(numbers) != count:
+        message = f"`{name}` takes {count} number{'s' * (count != 1)}, not {len(numbers)}"
+        raise ModelError([Diagnostic("NS105", message)])
+    return numbers
+
+
+def _finite(name: str, value: float) -> float:
+    if not math.isfinite(value):
+        raise ModelError([Diagnostic("NS501", f"`{name}` must be a finite number, not {value:g}")])
+    return float(value)
+
+
+def _unknown(what: str, name: str, known: Iterable[str]) -> Diagnostic:
+    distinct = list(dict.fromkeys(known))
+    listed = ", ".join(f"`{other}`" for other in distinct[:12]) or "none"
+    more = ", ..." if len(distinct) > 12 else ""
+    return Diagnostic(
+        "NS101",
+        f"there is no {what} `{name}`",
+        notes=(f"the {what}s are {listed}{more}",),
+        help=suggest(name, distinct),
+    )
+
+
+def _lacking(names: Sequence[str]) -> Diagnostic:
+    flags = " ".join(f"-p {name}=..." for name in names[:8]) + (" ..." if len(names) > 8 else "")
+    listed = ", ".join(f"`{name}`" for name in names[:8]) + (", ..." if len(names) > 8 else "")
+    return Diagnostic(
+        "NS503",
+        f"{'constants have' if len(names) > 1 else 'a constant has'} no value: {listed}",
+        help=f"give {flags}, or write them into the model with `approximate`",
+    )
+
+
+def _broken(check: Check, ode: AugmentedODE, values: _Values) -> Diagnostic:
+    read = dict.fromkeys(name.id for name in names(check.condition))
+    shown = ", ".join(f"`{name}` = {_shown(values.of(values.items[name]))}" for name in read)
+    text = " ".join(ode.source.slice(check.span).split())
+    proof = f"{check.reason} (at `{text}`)" if check.reason else f"`{text}` was assumed"
+    return Diagnostic(
+        "NS307",
+        f"{shown} breaks what the model rests on",
+        (Label(check.span),),
+        notes=(f"it needs: {proof}",),
+        help="choose values for which it holds",
+    )
+
+
+def _shown(values: Sequence[float]) -> str:
+    if len(values) == 1:
+        return f"{values[0]:g}"
+    return f"[{', '.join(f'{value:g}' for value in values[:4])}, ...]"

@@ -1,0 +1,200 @@
+"""How long, how fine, by which method: settings of a run, refused before it starts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from nsode.diagnostics import Diagnostic, Label, ModelError, suggest
+from nsode.integrators import REGISTRY
+from nsode.ode import Run
+
+#: What a run may ask for.
+MOST_STEPS = 10**9
+MOST_BYTES = 2 * 2**30
+
+_SECONDS_A_STEP = 1e-7  # of a small scene, for estimates
+_DEFAULT_METHOD = next(iter(REGISTRY))
+
+
+@dataclass(frozen=True, slots=True)
+class Wish:
+    """What a person asks of a run; None leaves it to the model.
+
+    ``duration``, ``step`` and ``start`` are in seconds; ``every`` counts steps from one
+    stored row to the next.
+    """
+
+    duration: float | None = None
+    step: float | None = None
+    every: int | None = None
+    method: str | None = None
+    start: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """A run that can be made: step ``i`` starts at ``start + i*step``."""
+
+    start: float
+    step: float
+    steps: int
+    every: int
+    method: str
+
+    @property
+    def duration(self) -> float:
+        """The length of the run in seconds."""
+        return self.steps * self.step
+
+    @property
+    def rows(self) -> int:
+        """The number of stored rows: the start, every so many steps, and the end."""
+        return -(-self.steps // self.every) + 1
+
+
+def settle(wish: Wish, run: Run, columns: int) -> tuple[Settings, list[Diagnostic]]:
+    """Return the settings of a run and what is to be said about them.
+
+    Parameters
+    ----------
+    wish
+        What was asked for.
+    run
+        What the model says where nothing was asked for.
+    columns
+        The numbers in a row, for the limit on memory.
+
+    Raises
+    ------
+    ModelError
+        NS501 for settings out of range, NS502 for a run too large, NS503 for what neither
+        the wish nor the model says.
+    """
+    duration = run.duration if wish.duration is None else wish.duration
+    step = run.step if wish.step is None else wish.step
+    method = wish.method or run.method or _DEFAULT_METHOD
+    problems = [
+        *_missing(duration, step),
+        *_unsound("duration", duration),
+        *_unsound("step", step),
+        *_unknown(method, None if wish.method else run),
+    ]
+    if not math.isfinite(wish.start):
+        message = f"the start of a run is a finite time, not {wish.start:g}"
+        problems.append(Diagnostic("NS501", message))
+    if wish.every is not None and wish.every < 1:
+        message = f"rows are stored every 1 or more steps, not every {wish.every}"
+        problems.append(Diagnostic("NS501", message))
+    if problems or duration is None or step is None:
+        raise ModelError(problems)
+    steps = round(duration / step)
+    every, remarks = _every(wish, run, step)
+    settings = Settings(wish.start, step, steps, every, method)
+    problems = [*_too_short(duration, step, steps), *_too_large(settings, columns)]
+    if problems:
+        raise ModelError(problems)
+    if abs(duration / step - steps) > 1e-9 * steps and duration != run.duration:
+        message = f"the duration is {duration / step:.6g} steps long; the run takes {steps:,}"
+        remarks.append(Diagnostic("NS404", message, severity="note"))
+    return settings, remarks
+
+
+def _missing(duration: float | None, step: float | None) -> list[Diagnostic]:
+    flags = (("--for SECONDS", duration), ("--step SECONDS", step))
+    lacking = [flag for flag, value in flags if value is None]
+    if not lacking:
+        return []
+    what = "how long a run takes" if duration is None else "how large a step is"
+    if duration is None and step is None:
+        what = "how long a run and its steps are"
+    return [
+        Diagnostic(
+            "NS503",
+            f"nothing says {what}",
+            help=f"give {' and '.join(lacking)}, or write `simulate 1 {{s}} step 1e-3 {{s}}` "
+            "into the model",
+        )
+    ]
+
+
+def _unsound(what: str, value: float | None) -> list[Diagnostic]:
+    if value is None or (math.isfinite(value) and value > 0):
+        return []
+    message = f"the {what} of a run must be a finite number greater than 0, not {value:g}"
+    return [Diagnostic("NS501", message)]
+
+
+def _unknown(method: str, run: Run | None) -> list[Diagnostic]:
+    if method in REGISTRY:
+        return []
+    return [
+        Diagnostic(
+            "NS501",
+            f"there is no method `{method}`",
+            () if run is None else (Label(run.span),),
+            notes=("the methods are " + ", ".join(f"`{name}`" for name in REGISTRY),),
+            help=suggest(method, REGISTRY),
+        )
+    ]
+
+
+def _every(wish: Wish, run: Run, step: float) -> tuple[int, list[Diagnostic]]:
+    if wish.every is not None:
+        return wish.every, []
+    if run.every is None:
+        return 1, []
+    steps = run.every / step
+    every = max(1, round(steps))
+    if abs(steps - every) <= 1e-9 * every:
+        return every, []
+    message = f"rows lie {steps:.6g} steps apart in the model; the run stores one every {every}"
+    return every, [Diagnostic("NS404", message, (Label(run.span),), severity="note")]
+
+
+def _too_short(duration: float, step: float, steps: int) -> list[Diagnostic]:
+    if steps:
+        return []
+    message = f"a run of {duration:g} s is shorter than half a step of {step:g} s"
+    return [Diagnostic("NS501", message)]
+
+
+def _too_large(settings: Settings, columns: int) -> list[Diagnostic]:
+    problems = []
+    size = 8.0 * settings.rows * columns
+    if settings.steps > MOST_STEPS:
+        took = _span(settings.steps * _SECONDS_A_STEP)
+        problems.append(
+            Diagnostic(
+                "NS502",
+                f"{settings.steps:.3g} steps are more than a run takes ({MOST_STEPS:.0e})",
+                notes=(f"at 0.1 us a step they would take {took} and store {_bytes(size)}",),
+                help="choose a shorter duration or a larger step",
+            )
+        )
+    if size > MOST_BYTES:
+        every = settings.every * math.ceil(size / MOST_BYTES)
+        problems.append(
+            Diagnostic(
+                "NS502",
+                f"{settings.rows:.3g} rows of {columns} numbers are {_bytes(size)}",
+                notes=(f"a run stores up to {_bytes(MOST_BYTES)}",),
+                help=f"store fewer rows: `--every {every}`",
+            )
+        )
+    return problems
+
+
+def _span(seconds: float) -> str:
+    for unit, length in (("years", 31_557_600.0), ("days", 86_400.0), ("hours", 3600.0)):
+        if seconds >= length:
+            return f"{seconds / length:.2g} {unit}"
+    return f"{seconds:.2g} s"
+
+
+def _bytes(count: float) -> str:
+    for unit in ("B", "kB", "MB", "GB", "TB"):
+        if count < 1000:
+            return f"{count:.3g} {unit}"
+        count /= 1000
+    return f"{count:.3g} PB"
