@@ -20,10 +20,11 @@ from nsode.source import Source
 from nsode.syntax import ast, depth, headers, slips
 from nsode.syntax.builder import Builder
 from nsode.syntax.limits import DEFAULT_LIMITS, Limits
+from nsode.syntax.misfit import Misfit
 from nsode.syntax.reading import too_large
 from nsode.syntax.scanner import StatementTokens, scan
 from nsode.syntax.tokens import Token, Vocabulary
-from nsode.syntax.unexpected import Slip, explain
+from nsode.syntax.unexpected import explain
 
 
 def grammar() -> str:
@@ -91,8 +92,8 @@ class Parser:
         except UnexpectedToken as error:
             bad = None if error.token.type == "$END" else fed.pop()
             rest = statement.tokens[len(fed) + 1 :]
-            slip = Slip(fed, bad, rest, self._expected(fed))
-            raise ModelError([explain(slip, self.vocabulary.texts)]) from None
+            misfit = Misfit(fed, bad, rest, self._expected(fed))
+            raise ModelError([explain(misfit, self.vocabulary.texts)]) from None
 
     def as_keyword(self, token: Token, state: InteractiveParser) -> Token:
         """Make a word a keyword where one may stand, or where an operand may stand."""

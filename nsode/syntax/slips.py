@@ -31,10 +31,12 @@ _GREEK = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (?:FINAL )?([A-Z]+)$")
 _STRAY = {
     "&": "write `and`",
     "&&": "write `and`",
-    "|": "write `or`",
+    "|": "a magnitude is written `abs(a)`, a choice `or`",
     "||": "write `or`",
     "!": "write `not`",
     ";": "a new line ends a statement",
+    "?": "a choice is written `if c then a else b`",
+    '"': "the language has no strings",
     "}": "a unit stands in braces, as in `{N/m}`",
     "%": "the remainder is `mod(a, b)`; a comment begins with `#`",
     "\\": "inside ( and [ a statement goes on in the next line by itself",

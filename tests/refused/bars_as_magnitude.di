@@ -1,0 +1,3 @@
+model m
+state p = 1
+der(p) = -|p|

@@ -1,0 +1,4 @@
+model m
+state p = 1
+der(p) = -p
+end

@@ -1,0 +1,4 @@
+model m
+let f(x) = x^2
+state p = 1
+der(p) = f(p)

@@ -1,0 +1,3 @@
+model m # café
+state p = 1
+der(p) = -p
