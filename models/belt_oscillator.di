@@ -2,7 +2,9 @@
 # equations (48) and (49); the system is that of Awrejcewicz, Feckan and Olejnik).
 #
 # The friction falls with the sliding speed, which feeds the oscillation. At u = 1 the
-# mass crosses w = 0 without sticking; try -p u=0.1 to see it stick.
+# mass crosses w = 0 without sticking; try -p u=0.1 to see it stick. With this large a
+# beta, RK4 takes steps of 5.5e-5 s while it sticks, and of 1 ms, the paper's, only
+# where it does not.
 model belt_oscillator
 
 parameter M  = 1    {kg}
@@ -21,4 +23,4 @@ der(p) = u - w
 M*der(w) = k2*p^3 - k1*p - Fc
 
 approximate Fc: K = 1e5 {N/m}, beta = 0.5 {s}
-simulate 50 {s} step 1e-3 {s} method rk4
+simulate 50 {s} step 5e-5 {s} method rk4

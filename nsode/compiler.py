@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from nsode.analysis import Analysis
+    from nsode.backends.casadi.model import CasadiModel
+    from nsode.backends.sympy import SymbolicSystem
     from nsode.simulate import Trajectory
     from nsode.simulate.inputs import Signal
 
@@ -118,6 +121,52 @@ class Model:
         """
         return write_all(self.emit(target, options), Path(folder))
 
+    def only(self, outputs: Sequence[str]) -> Model:
+        """Return the model with just some outputs and the states that they depend on.
+
+        Raises
+        ------
+        ModelError
+            NS101 for an output or a state that there is not.
+        """
+        from nsode.passes.prune import prune
+
+        return replace(self, ode=prune(self.ode, outputs))
+
+    def casadi(self, method: str = "rk4") -> CasadiModel:
+        """Return CasADi functions ``rhs``, ``out``, ``step`` and ``init``; needs casadi.
+
+        ``step`` is one step of ``method``, an explicit Runge-Kutta method by name.
+        """
+        from nsode.backends.casadi import functions
+
+        return functions(self.ode, method)
+
+    def sympy(self) -> SymbolicSystem:
+        """Return the augmented ODE as SymPy objects; needs sympy."""
+        from nsode.backends.sympy import system
+
+        return system(self.ode)
+
+    def analyze(
+        self,
+        *,
+        along: Iterable[Sequence[float]] = (),
+        impact_speed: float | None = None,
+    ) -> Analysis:
+        """Return what is known before a run: W, stable steps, restitution, energy.
+
+        Parameters
+        ----------
+        along
+            States, such as the rows of a run, at which the steps are looked at too.
+        impact_speed
+            In m/s; the first impact from the start unless given.
+        """
+        from nsode.analysis import analyze
+
+        return analyze(self.inclusion, self.ode, along=along, impact_speed=impact_speed)
+
     def simulate(
         self,
         duration: float | None = None,
@@ -205,11 +254,14 @@ def compile_source(source: Source) -> Model:
     ModelError
         If the model is refused; it names the source.
     """
+    from nsode.analysis import warnings
+
     with _without_collector():
         try:
             inclusion, diagnostics = build(parse(source))
             ode = rewrite(inclusion)
-            return Model(inclusion, ode, (*diagnostics, *at_start(ode)))
+            said = (*diagnostics, *at_start(ode), *warnings(inclusion))
+            return Model(inclusion, ode, said)
         except ModelError as error:
             raise ModelError(error.diagnostics, source) from None
 
