@@ -6,10 +6,15 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 import nsode
 from nsode.ode import AugmentedODE
 from support.native import FLAGS, Native, Real, build, have
+
+# How long an example takes depends on the machine; what it finds may not.
+settings.register_profile("nsode", deadline=None)
+settings.load_profile("nsode")
 
 
 def pytest_report_header() -> str:
