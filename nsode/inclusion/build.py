@@ -25,7 +25,7 @@ from nsode.inclusion.settings import Approximations, run
 from nsode.inclusion.sharing import Numbering
 from nsode.inclusion.signs import Prover
 from nsode.inclusion.symbols import Scope, Symbols
-from nsode.inclusion.units import in_si
+from nsode.inclusion.units import check_units, in_si
 from nsode.inclusion.values import each, scalars, shape, suffixes
 from nsode.ode import (
     Binding,
@@ -60,9 +60,11 @@ def build(model: ast.Model) -> tuple[DifferentialInclusion, tuple[Diagnostic, ..
         inclusion = course.assemble()
     course.report.raise_errors()
     course.check(inclusion)
+    inclusion = replace(inclusion, checks=tuple(course.checks))
+    inclusion, misfits = check_units(model, inclusion)
+    course.report.found.extend(misfits)
     course.report.raise_errors()
     course.remark(inclusion)
-    inclusion = replace(inclusion, checks=tuple(course.checks))
     return inclusion, tuple(course.report.ordered())
 
 

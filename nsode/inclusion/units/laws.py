@@ -1,0 +1,75 @@
+"""The units of an approximation's constants and targets, from those of its element."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import NamedTuple
+
+from nsode.inclusion.units.dimension import ONE, SECOND, Dimension, power, product
+from nsode.ode import SetValuedTerm
+
+
+class _Powers(NamedTuple):
+    """A unit as a product of powers: of the multiplier, of the gap or velocity, of time."""
+
+    force: int = 0
+    argument: int = 0
+    time: int = 0
+
+
+_TIMES = {"alpha": _Powers(time=1), "beta": _Powers(time=1)}
+_CONSTANTS = {
+    "dio": {
+        **_TIMES,
+        "K": _Powers(force=1, argument=-1),
+        "restitution": _Powers(),
+        "impact_speed": _Powers(argument=1, time=-1),
+        "penetration": _Powers(argument=1),
+        "effective_mass": _Powers(force=1, argument=-1, time=2),
+    },
+    "sgn": {
+        **_TIMES,
+        "K": _Powers(force=1, argument=-1, time=-1),
+        "presliding": _Powers(argument=1, time=1),
+        "damping_ratio": _Powers(),
+        "effective_mass": _Powers(force=1, argument=-1, time=1),
+    },
+}
+#: The laws whose constants the table has; those of others are not checked.
+_LAWS = {"xiong2013"}
+
+
+def constant(
+    term: SetValuedTerm, name: str, force: Dimension | None, argument: Dimension | None
+) -> Dimension | None:
+    """Return the dimension of a constant, None where nothing tells."""
+    powers = _powers(term, name)
+    if powers is None:
+        return None
+    found = power(SECOND, Fraction(powers.time))
+    for of, exponent in ((force, powers.force), (argument, powers.argument)):
+        if exponent and of is None:
+            return None
+        if exponent and of is not None:
+            found = product(found, power(of, Fraction(exponent)))
+    return found
+
+
+def force(term: SetValuedTerm, stiffness: Dimension, argument: Dimension) -> Dimension | None:
+    """Return the dimension of the multiplier of a term with this K, None where nothing tells."""
+    for_unit_force = constant(term, "K", ONE, argument)
+    if for_unit_force is None:
+        return None
+    return product(stiffness, power(for_unit_force, Fraction(-1)))
+
+
+def follows_from_units(term: SetValuedTerm, name: str) -> bool:
+    """Tell whether the unit of a constant depends on those of its element."""
+    powers = _powers(term, name)
+    return powers is not None and (powers.force, powers.argument) != (0, 0)
+
+
+def _powers(term: SetValuedTerm, name: str) -> _Powers | None:
+    if term.approximation.law not in _LAWS:
+        return None
+    return _CONSTANTS[term.kind].get(name)
