@@ -10,7 +10,7 @@ from random import Random
 from nsode.expr import FUNCTIONS
 from nsode.syntax.words import RESERVED
 
-_UNITS = ["", "", "", " {1}", " {m}", " {m/s}", " {kg}", " {N/m}", " {deg}"]
+_UNITS = ["", " {1}", " {m}", " {m/s}", " {kg}", " {N/m}", " {deg}"]
 _FUNCTIONS = ["sin", "cos", "tan", "exp", "tanh", "atan", "abs", "sqrt", "log", "cosh"]
 _RELATIONS = ["<", "<=", ">", ">=", "==", "!="]
 
@@ -27,9 +27,11 @@ class ModelWriter:
     families: list[str] = field(default_factory=list)
     forces: list[tuple[str, str]] = field(default_factory=list)
     count: int = 0
+    with_units: bool = False
 
     def write(self) -> str:
         chance = self.random.random
+        self.with_units = chance() < 0.2
         self.lines.append("model fuzz")
         self._repeat(self.parameter, 3)
         if chance() < 0.3:
@@ -186,7 +188,7 @@ class ModelWriter:
         return self.random.choice(["0", "1", "2", "0.5", "1e-3", "3.7", "12", "1e5", "9.8"])
 
     def unit(self) -> str:
-        return self.random.choice(_UNITS)
+        return self.random.choice(_UNITS) if self.with_units else ""
 
 
 def model(random: Random) -> str:
