@@ -16,9 +16,11 @@ from nsode import __version__
 #: object ``command`` of the module ``nsode.cli.name``.
 COMMANDS: dict[str, str] = {
     "compile": "Write a model as code that integrates.",
+    "simulate": "Run a model and show what happened.",
     "check": "Say whether models are sound, and what is wrong where they are not.",
     "new": "Write a model to start from.",
     "doctor": "Show what nsode finds on this machine.",
+    "cache": "Show or clear what runs have compiled.",
     "code": "Explain a code such as NS201.",
 }
 

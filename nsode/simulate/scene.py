@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.ode import AugmentedODE, DifferentialInclusion
@@ -13,6 +13,9 @@ from nsode.simulate.observe import Observed, observe
 
 _KEPT = 32  # models that are remembered
 
+#: Method, step and parameters of a run, which decide what is said before it.
+Foreseen = tuple[str, float, bytes]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
@@ -21,6 +24,7 @@ class Scene:
     observed: Observed
     native: Native
     compiler: Compiler
+    foreseen: dict[Foreseen, tuple[Diagnostic, ...]] = field(default_factory=dict)
 
 
 _Key = tuple[int, int]

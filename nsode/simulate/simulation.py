@@ -14,6 +14,7 @@ from nsode import __version__
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.ode import AugmentedODE, DifferentialInclusion, Output, State, element_names, size
 from nsode.simulate import failure, parameters
+from nsode.simulate.foresee import foresee
 from nsode.simulate.inputs import Signal, inputs
 from nsode.simulate.loop import Progress, Record, Vector, record
 from nsode.simulate.native import OK
@@ -103,8 +104,8 @@ def simulate(
     p = parameters.parameters(ode, overrides or {})
     settings, remarks = settle(wish, ode.run, _columns(ode))
     given = inputs(ode, signals or {}, settings)
-    _say(remarks, manner, ode)
     made = scene(inclusion, ode)
+    _say([*remarks, *_foreseen(made, inclusion, ode, settings, p)], manner, ode)
     x0 = made.native.initial(p if len(p) else np.zeros(1))
     parameters.states(ode, x0, start or {})
     found = record(made.native, settings, x0, given, p, manner.progress)
@@ -116,6 +117,20 @@ def simulate(
     if found.interrupted:
         manner.tell(failure.interrupted(settings, found))
     return trajectory
+
+
+def _foreseen(
+    made: Scene,
+    inclusion: DifferentialInclusion,
+    ode: AugmentedODE,
+    settings: Settings,
+    p: Vector,
+) -> tuple[Diagnostic, ...]:
+    """Return what is known of a run before it; looked up where a run is repeated."""
+    key = (settings.method, settings.step, p.tobytes())
+    if key not in made.foreseen:
+        made.foreseen[key] = foresee(inclusion, ode, settings, p)
+    return made.foreseen[key]
 
 
 def _say(remarks: Sequence[Diagnostic], manner: Manner, ode: AugmentedODE) -> None:
