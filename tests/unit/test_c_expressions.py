@@ -1,11 +1,10 @@
 """Expressions in C mean what the tree means, operation by operation."""
 
 import math
+import random
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
-from hypothesis import strategies as st
 
 from nsode.backends.c.expressions import condition, lower
 from nsode.expr import Call, Expr, If, Index, Name, Number
@@ -113,7 +112,11 @@ def test_what_c_does_not_know_is_refused():
 
 
 def _max(a, b):
-    return math.nan if math.isnan(a) or math.isnan(b) else max(a, b)
+    return a if a > b else b if b >= a else a + b
+
+
+def _min(a, b):
+    return a if a < b else b if b <= a else a + b
 
 
 def _sat(level, x):
@@ -148,7 +151,7 @@ MEANING = {
     "^": _power,
     "abs": abs,
     "max": _max,
-    "min": lambda a, b: -_max(-a, -b),
+    "min": _min,
     "sat": _sat,
     "shrink": lambda z, n: 1.0 if n <= z else _divide(z, n),
     "norm": lambda a, b: math.sqrt(a * a + b * b),
@@ -170,56 +173,66 @@ def meaning(expr, values):
             return values[id]
         case If(test, then, otherwise):
             return meaning(then if meaning(test, values) else otherwise, values)
+        case Call("max", (Number(0.0), other)):
+            y = meaning(other, values)
+            return 0.0 if y <= 0 else y
         case Call(function, args):
             return MEANING[function](*(meaning(arg, values) for arg in args))
     raise AssertionError(expr)
 
 
-numbers = st.sampled_from([0.0, 1.0, 2.0, 3.0, -1.0, 0.1, 9.8, -2.5, 1e6, 1e7, 1e-300])
-leaves = st.one_of(st.sampled_from([X, Y, Z]), numbers.map(Number))
+NUMBERS = [0.0, 1.0, 2.0, 3.0, -1.0, 0.1, 9.8, -2.5, 1e6, 1e7, 1e-300]
+VALUES = [0.0, -0.0, 1.0, -1.5, 0.3, 7e-5, -12345.678, 1e-310, math.nan, math.inf]
 
 
-def _tests(e):
-    compare = st.builds(call, st.sampled_from(["<", "<=", "==", "!="]), e, e)
-    return st.one_of(
-        compare,
-        compare.map(lambda c: call("not", c)),
-        st.builds(call, st.sampled_from(["and", "or"]), compare, compare),
+def random_test(rng, depth):
+    kind = rng.choice(["compare", "compare", "not", "and"]) if depth else "compare"
+    match kind:
+        case "compare":
+            sides = random_tree(rng, depth - 1), random_tree(rng, depth - 1)
+            return call(rng.choice(["<", "<=", "==", "!="]), *sides)
+        case "not":
+            return call("not", random_test(rng, depth - 1))
+        case _:
+            sides = random_test(rng, depth - 1), random_test(rng, depth - 1)
+            return call(rng.choice(["and", "or"]), *sides)
+
+
+def random_tree(rng, depth):
+    if depth <= 0 or rng.random() < 0.2:
+        return rng.choice([X, Y, Z]) if rng.random() < 0.7 else num(rng.choice(NUMBERS))
+
+    def some():
+        return random_tree(rng, depth - 1)
+
+    match rng.choice(["binary", "binary", "sum", "sum", "unary", "sat", "power", "norm", "if"]):
+        case "binary":
+            return call(rng.choice(["*", "/", "max", "min"]), some(), some())
+        case "sum":
+            return plus(*(some() for _ in range(rng.randint(2, 4))))
+        case "unary":
+            return call(rng.choice(["neg", "abs"]), some())
+        case "sat":
+            return call(rng.choice(["sat", "shrink"]), call("abs", some()), some())
+        case "power":
+            return call("^", some(), rng.choice([1, 2, 3, -1, -2]))
+        case "norm":
+            return call("norm", some(), some())
+        case _:
+            return If(random_test(rng, depth - 1), some(), some())
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_compiled_expressions_are_the_trees_bit_for_bit(seed, compile_c):
+    rng = random.Random(seed)
+    many = [random_tree(rng, 5) for _ in range(200)]
+    scene = evaluating(
+        {f"y{k}": tree for k, tree in enumerate(many)},
+        parameters=[Parameter(k, (0.0,)) for k in "xyz"],
     )
-
-
-trees = st.recursive(
-    leaves,
-    lambda e: st.one_of(
-        st.builds(call, st.sampled_from(["*", "/", "max", "min"]), e, e),
-        st.lists(e, min_size=2, max_size=4).map(lambda terms: plus(*terms)),
-        e.map(lambda a: call("neg", a)),
-        e.map(lambda a: call("abs", a)),
-        st.builds(call, st.sampled_from(["sat", "shrink"]), e.map(lambda a: call("abs", a)), e),
-        st.builds(lambda a, n: call("^", a, n), e, st.sampled_from([1, 2, 3, -1, -2])),
-        st.builds(call, st.just("norm"), e, e),
-        st.builds(If, _tests(e), e, e),
-    ),
-    max_leaves=12,
-)
-values = st.sampled_from([0.0, -0.0, 1.0, -1.5, 0.3, 7e-5, -12345.678, 1e-310, math.nan, math.inf])
-
-
-@settings(
-    max_examples=6,
-    deadline=None,
-    phases=[Phase.explicit, Phase.reuse, Phase.generate],  # each attempt is a compilation
-    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.large_base_example],
-)
-@given(
-    many=st.lists(trees, min_size=60, max_size=80),
-    points=st.lists(st.tuples(values, values, values), min_size=20, max_size=20),
-)
-def test_compiled_expressions_are_the_trees_bit_for_bit(many, points, compile_c):
-    outputs = {f"y{k}": tree for k, tree in enumerate(many)}
-    scene = evaluating(outputs, parameters=[Parameter(k, (0.0,)) for k in "xyz"])
     native = compile_c(scene)
-    for point in points:
+    for _ in range(50):
+        point = [rng.choice([*VALUES, rng.gauss(0, 1), rng.gauss(0, 1e5)]) for _ in "xyz"]
         found = native.out(0.0, [], p=point)
         with np.errstate(all="ignore"):
             wanted = [meaning(tree, dict(zip("xyz", point, strict=True))) for tree in many]

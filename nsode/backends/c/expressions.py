@@ -220,6 +220,8 @@ def _negative(code: Code) -> Code:
 
 
 def _product(operator: str, left: Code, right: Code) -> Code:
+    if operator == "/" and right.text == "0":  # compilers warn of integers only
+        right = _real(right)
     start = _real(left) if right.whole and left.whole else left
     return Code(f"{_inside(start, _PRODUCT)}{operator}{_right(right, _UNARY)}", _PRODUCT)
 
