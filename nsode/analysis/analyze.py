@@ -137,7 +137,9 @@ def _modes(place: Reachable) -> tuple[int | None, tuple[complex, ...], Unstable 
         return None, (), None
     modes = place.modes(place.sets)
     growing = modes.growing()
-    unstable = growing and Unstable(growing.eigenvalue, place.named(growing.active))
+    unstable = None
+    if growing is not None:
+        unstable = Unstable(growing.eigenvalue, place.named(growing.active))
     return len(place.sets), tuple(modes.own()), unstable
 
 

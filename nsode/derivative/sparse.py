@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import product
-from typing import NamedTuple
+from math import prod
+from typing import TYPE_CHECKING, NamedTuple
 
 from nsode.derivative.forward import Row, defined
 from nsode.derivative.rules import (
@@ -29,6 +29,10 @@ from nsode.derivative.rules import (
 )
 from nsode.expr import Expr, Index, IndexRange, Name, Number, add, multiply, negate
 from nsode.ode import AugmentedODE, Binding, Definition, LinearSolve, Rate, SetValuedTerm, Slot
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 class Entry(NamedTuple):
@@ -286,40 +290,49 @@ def pattern(entries: Sequence[Entry], rows: dict[str, Slot], columns: dict[str, 
     rows, columns : dict of str to Slot
         The places of the names that are derived, and of those by which they are.
     """
-    spots = [list(_spots(entry, rows, columns)) for entry in entries]
-    used = sorted({spot for found in spots for spot in found if spot is not None})
-    place = {spot: number for number, spot in enumerate(used)}
-    width = max((s.offset + _length(s) for s in columns.values()), default=0)
-    starts = [0] * (width + 1)
-    for column, _ in used:
-        starts[column + 1] += 1
-    for number in range(width):
-        starts[number + 1] += starts[number]
+    import numpy as np
+
+    height = max((slot.offset + _length(slot) for slot in rows.values()), default=0)
+    width = max((slot.offset + _length(slot) for slot in columns.values()), default=0)
+    spots = [_spots(entry, rows, columns, height) for entry in entries]
+    every = np.concatenate([np.empty(0, dtype=np.int64), *spots])
+    used, place = np.unique(every[every >= 0], return_inverse=True)
+    places = np.full(len(every), -1)
+    places[every >= 0] = place
+    ends = np.cumsum([len(found) for found in spots])
     return Pattern(
-        tuple(starts),
-        tuple(row for _, row in used),
-        tuple(tuple(-1 if s is None else place[s] for s in found) for found in spots),
+        tuple(np.searchsorted(used, height * np.arange(width + 1)).tolist()),
+        tuple((used % height if height else used).tolist()),
+        tuple(tuple(part.tolist()) for part in np.split(places, ends)[: len(spots)]),
     )
 
 
 def _spots(
-    entry: Entry, rows: dict[str, Slot], columns: dict[str, Slot]
-) -> Iterator[tuple[int, int] | None]:
-    """Yield (column, row) of each value, in the order of the loops."""
-    variables = [span.variable for span in entry.ranges]
-    for indices in product(*(range(s.first, s.last + 1) for s in entry.ranges)):
-        at = dict(zip(variables, indices, strict=True))
-        row = _place(rows[entry.row.id], entry.row.at, at)
-        column = _place(columns[entry.column.id], entry.column.at, at)
-        yield None if row is None or column is None else (column, row)
+    entry: Entry, rows: dict[str, Slot], columns: dict[str, Slot], height: int
+) -> NDArray[np.int64]:
+    """Return ``column*height + row`` of each value in the order of the loops, or -1."""
+    import numpy as np
+
+    grids = np.meshgrid(
+        *(np.arange(span.first, span.last + 1) for span in entry.ranges), indexing="ij"
+    )
+    at = {span.variable: grid.ravel() for span, grid in zip(entry.ranges, grids, strict=True)}
+    count = prod(len(span) for span in entry.ranges)
+    row, row_fits = _place(rows[entry.row.id], entry.row.at, at)
+    column, column_fits = _place(columns[entry.column.id], entry.column.at, at)
+    spots = np.where(row_fits & column_fits, column * height + row, -1)
+    return np.broadcast_to(spots, (count,))
 
 
-def _place(slot: Slot, at: Index | None, values: dict[str, int]) -> int | None:
+def _place(
+    slot: Slot, at: Index | None, values: dict[str, NDArray[np.int64]]
+) -> tuple[NDArray[np.int64] | int, NDArray[np.bool_] | bool]:
+    """Return places in a vector, and whether they are inside the range."""
     if slot.range is None or at is None:
-        return slot.offset
+        return slot.offset, True
     index = at.offset + (values[at.variable] if at.variable is not None else 0)
-    inside = slot.range.first <= index <= slot.range.last
-    return slot.offset + index - slot.range.first if inside else None
+    inside = (index >= slot.range.first) & (index <= slot.range.last)
+    return slot.offset + index - slot.range.first, inside
 
 
 def _length(slot: Slot) -> int:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-import numpy as np
-import pytest
 
 import nsode
 from nsode.analysis import analyze

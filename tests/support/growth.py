@@ -38,7 +38,7 @@ class Inside:
         first, second = self.x.copy(), self.x + APART * right.real / np.abs(right).max()
         before = abs(left @ (second - first))
         advance = self.code[f"step_{method}"]
-        for n in range(1, steps + 1):
+        for n in range(1, steps + 1):  # noqa: B007
             first, second = advance(0.0, step, first), advance(0.0, step, second)
             after = abs(left @ (second - first))
             if not 1e-3 < after / before < 1e3:

@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from textwrap import wrap
 
-from nsode.backends.c import solve
+from nsode.backends.c import jacobian, solve
 from nsode.backends.c.expressions import condition, lower
-from nsode.backends.c.plan import Group, Plan, Require, Store, Work, plan
+from nsode.backends.c.plan import Group, Plan, Require, Scatter, Store, Work, plan
 from nsode.backends.c.program import Program, Vector
 from nsode.expr import TIME, Index, IndexRange, Name, Sum
 from nsode.ode import Binding, LinearSolve
@@ -71,11 +71,12 @@ class Writer:
 
     def _works(self, works: Iterable[Work], at: str | int | None = None) -> None:
         for work in works:
-            with self._index(work.range, at):
+            with self.inside(work.range, at):
                 self._work(work)
 
     @contextmanager
-    def _index(self, over: IndexRange | None, at: str | int | None) -> Iterator[None]:
+    def inside(self, over: IndexRange | None, at: str | int | None) -> Iterator[None]:
+        """Give the index of a range its text."""
         outer = dict(self.indices)
         if over is not None and at is not None:
             self.indices[over.variable] = at
@@ -135,6 +136,8 @@ class Writer:
                 self.line(f"if (!{text}) {{")
                 self.line(f"    return {status};")
                 self.line("}")
+            case Scatter():
+                jacobian.write(work, self)
 
     def define(self, name: str, over: IndexRange | None, text: str) -> None:
         """Write the value of a binding where readers look for it."""
@@ -175,7 +178,7 @@ class Writer:
         """Write the loop of a sum before the statement at hand; return its variable."""
         total = self.fresh("sum")
         self.line(f"real {total} = 0;")
-        with self.loop(expr.range) as variable, self._index(expr.range, variable):
+        with self.loop(expr.range) as variable, self.inside(expr.range, variable):
             self.line(f"{total} += {lower(expr.body, self)};")
         return total
 

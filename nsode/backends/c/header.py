@@ -30,6 +30,8 @@ def prototypes(program: Program) -> dict[str, str]:
     heads = {
         "rhs": f"{state}, {real} *dx",
         "out": f"{state}, {real} *y",
+        "jac": f"{state}, {real} *J",
+        "jac_pattern": "int *row, int *col",
         "init": f"const {real} *p, {real} *x",
         **{f"step_{name}": step for name in REGISTRY},
     }
@@ -42,6 +44,8 @@ def _comment(name: str) -> str:
     return {
         "rhs": "The rates dx of the states x at time t, for inputs u and parameters p.",
         "out": "The outputs y: the declared ones, then every force.",
+        "jac": "The derivatives of the rates by the states, in the places of the pattern.",
+        "jac_pattern": "Column j of J has the rows row[k] for k from col[j] to col[j + 1] - 1.",
         "init": "The states at the start, for these parameters.",
     }[name]
 
@@ -82,7 +86,8 @@ def _enum(lines: Iterable[str]) -> str:
 
 
 def _counts(program: Program) -> list[str]:
-    return [f"{program.prefix}_N{v.letter.upper()} = {v.size}" for v in program.vectors]
+    sizes = [f"{program.prefix}_N{v.letter.upper()} = {v.size}" for v in program.vectors]
+    return [*sizes, f"{program.prefix}_JAC_NNZ = {program.jacobian.size}"]
 
 
 def _places(program: Program, vector: Vector) -> str:

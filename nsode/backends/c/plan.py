@@ -36,7 +36,24 @@ class Require:
     range: IndexRange | None = None
 
 
-Work = Binding | LinearSolve | Store | Require
+@dataclass(frozen=True, slots=True)
+class Scatter:
+    """Write into the Jacobian: at ``place``, or over a range and those inside it.
+
+    The places of a family stand in a table from ``place`` on, element ``first`` first.
+    ``adds``: the value is added; ``outside``: some elements have no place.
+    """
+
+    value: Expr
+    adds: bool
+    place: int
+    range: IndexRange | None = None
+    inner: tuple[IndexRange, ...] = ()
+    first: int = 0
+    outside: bool = False
+
+
+Work = Binding | LinearSolve | Store | Require | Scatter
 
 
 @dataclass(slots=True)
@@ -49,10 +66,11 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Groups in order, and the range of every family that is kept in an array."""
+    """Groups in order, the range of every family that is kept in an array, and what is read."""
 
     groups: tuple[Group, ...]
     stored: dict[str, IndexRange]
+    read: set[str]
 
 
 def plan(works: Iterable[Work]) -> Plan:
@@ -62,7 +80,7 @@ def plan(works: Iterable[Work]) -> Plan:
         for part in planner.align(work):
             planner.place(part)
     stored = {name: planner.extent(name) for name in planner.homes if name in planner.stored}
-    return Plan(tuple(planner.groups), stored)
+    return Plan(tuple(planner.groups), stored, planner.read)
 
 
 _Key = tuple[int, int] | None
@@ -79,7 +97,7 @@ def _defined(work: Work) -> tuple[str, ...]:
 def exprs(work: Work) -> tuple[Expr, ...]:
     """Return the expressions that a piece of work evaluates."""
     match work:
-        case Store(value=value):
+        case Store(value=value) | Scatter(value=value):
             return (value,)
         case Require(condition=condition):
             return (condition,)
@@ -114,6 +132,7 @@ class _Planner:
     positions: dict[_Key, list[int]] = field(default_factory=dict)
     homes: dict[str, list[tuple[_Key, int]]] = field(default_factory=dict)
     stored: set[str] = field(default_factory=set)
+    read: set[str] = field(default_factory=set)
 
     def align(self, work: Work) -> Iterator[Work]:
         """Break work at the pieces of what it reads, if it can then share their loops."""
@@ -137,6 +156,7 @@ class _Planner:
         shared: list[tuple[str, int]] = []
         low = 0
         for name, here in _all_reads(work):
+            self.read.add(name)
             homes = self.homes.get(name)
             if homes is None:
                 continue

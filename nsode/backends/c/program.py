@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from nsode.backends import Options
 from nsode.backends.c.names import Mangler, identifier, mangled
+from nsode.backends.jacobian import SparseJacobian, sparse_jacobian
 from nsode.ode import AugmentedODE, Check, Placed, Slot, layout, size
 from nsode.passes.split import split, split_check
 
@@ -43,6 +44,7 @@ class Program:
     y: Vector
     bindings: Mangler
     checks: tuple[tuple[int, Check], ...]
+    jacobian: SparseJacobian
     used: set[str] = field(default_factory=set)
 
     @property
@@ -62,8 +64,9 @@ def program(ode: AugmentedODE, options: Options) -> Program:
         names = mangled(f"{letter}_", (item.name for item in items))
         return Vector(letter, items, layout(items), names)
 
+    sparse = sparse_jacobian(ode)
     return Program(
-        ode=split(ode),
+        ode=split(sparse.ode),
         prefix=identifier(options.prefix or ode.name),
         single=options.real == "float",
         x=vector("x", ode.states),
@@ -72,6 +75,7 @@ def program(ode: AugmentedODE, options: Options) -> Program:
         y=vector("y", ode.outputs),
         bindings=Mangler("b_"),
         checks=_numbered_checks(ode),
+        jacobian=sparse,
     )
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from itertools import chain
 
-from nsode.backends.c import tables, work
+from nsode.backends.c import jacobian, tables, work
 from nsode.backends.c.function import body, wrapped
 from nsode.backends.c.header import prototypes
 from nsode.backends.c.helpers import need_math, with_helpers
@@ -19,7 +19,8 @@ _STATE = "real t, const real *x, const real *u, const real *p"
 
 def source(program: Program) -> str:
     """Return the text of the source file."""
-    sections = [*_cores(program), *_interface(program), *_steps(program)]
+    patterns = jacobian.tables(program)
+    sections = [*_cores(program), *patterns, *_interface(program), *_steps(program)]
     constants = [tables.parameters(program), *tables.names(program)]
     head = [_includes(program), *with_helpers(program.used, program.single)]
     return "\n".join([*head, *sections, *constants])
@@ -59,8 +60,14 @@ def _interface(program: Program) -> list[str]:
     return [
         _function(heads["rhs"], [*_guard(program), "    return rates(t, x, u, p, dx);"]),
         _function(heads["out"], [*body(program, work.outputs(program)), ok]),
+        _function(heads["jac"], [*_jacobian(program), ok]),
+        _function(heads["jac_pattern"], jacobian.fill(program)),
         _function(heads["init"], [*_start(program), ok]),
     ]
+
+
+def _jacobian(program: Program) -> list[str]:
+    return [*jacobian.cleared(program), *body(program, work.jacobian(program))]
 
 
 def _start(program: Program) -> list[str]:

@@ -7,7 +7,8 @@ from dataclasses import replace
 from itertools import chain
 from math import nan
 
-from nsode.backends.c.plan import Require, Store, Work, exprs
+from nsode.backends.c.jacobian import arranged
+from nsode.backends.c.plan import Require, Scatter, Store, Work, exprs
 from nsode.backends.c.program import Program, Vector
 from nsode.expr import TIME, Expr, IndexRange, Name, Number, rebuild
 from nsode.ode import Binding, LinearSolve, State
@@ -30,6 +31,11 @@ def outputs(program: Program) -> list[Work]:
         _stores(program, program.y, "y", item.name, item.value) for item in program.ode.outputs
     )
     return _with_bindings(program, tuple(stores))
+
+
+def jacobian(program: Program) -> list[Work]:
+    """Return the work of ``J``."""
+    return _with_bindings(program, arranged(program.jacobian).work)
 
 
 def checks(program: Program) -> list[Work]:
@@ -104,7 +110,7 @@ def _at_start(expr: Expr, program: Program) -> Expr:
 
 def _map(work: Work, change: Callable[[Expr], Expr]) -> Work:
     match work:
-        case Binding(value=value) | Store(value=value):
+        case Binding(value=value) | Store(value=value) | Scatter(value=value):
             return replace(work, value=change(value))
         case LinearSolve(matrix=matrix, right=right):
             rows = tuple(tuple(map(change, row)) for row in matrix)
@@ -113,7 +119,7 @@ def _map(work: Work, change: Callable[[Expr], Expr]) -> Work:
             return replace(work, condition=change(condition))
 
 
-def _with_bindings(program: Program, works: Sequence[Store | Require]) -> list[Work]:
+def _with_bindings(program: Program, works: Sequence[Store | Require | Scatter]) -> list[Work]:
     wanted = reads(*chain.from_iterable(exprs(work) for work in works))
     found: list[Work] = []
     for item in needed(program.ode.bindings, wanted):

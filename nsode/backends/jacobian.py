@@ -1,0 +1,66 @@
+"""The Jacobian of an ODE on its way to a backend: what to compute, and where it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from nsode.derivative import Entry, Pattern, jacobian, pattern
+from nsode.expr import Expr, IndexRange, Number
+from nsode.ode import AugmentedODE, layout
+from nsode.passes.split import pieces, settle
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """Values of one entry: ``value`` over the ranges, the outermost in one piece.
+
+    ``number`` is that of the entry, whose outermost range begins at ``first``.
+    """
+
+    value: Expr
+    ranges: tuple[IndexRange, ...]
+    number: int
+    first: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class SparseJacobian:
+    """An ODE extended by what its Jacobian reads, the pieces, and the pattern."""
+
+    ode: AugmentedODE
+    pieces: tuple[Piece, ...]
+    pattern: Pattern
+
+    @property
+    def size(self) -> int:
+        """How many values the Jacobian has."""
+        return len(self.pattern.rows)
+
+
+def sparse_jacobian(ode: AugmentedODE) -> SparseJacobian:
+    """Return the Jacobian of an ODE that is not in pieces yet."""
+    found = jacobian(ode)
+    states = layout(ode.states)
+    kept = [piece for n, entry in enumerate(found.entries) for piece in _pieces(entry, n)]
+    return SparseJacobian(
+        replace(ode, bindings=(*ode.bindings, *found.definitions)),
+        tuple(kept),
+        pattern(found.entries, states, states),
+    )
+
+
+def _pieces(entry: Entry, number: int) -> Sequence[Piece]:
+    """Break an entry where its value changes; pieces that are zero go."""
+    if not entry.ranges:
+        value = settle(entry.value)
+        return [] if value == _ZERO else [Piece(value, (), number)]
+    outer, *inner = entry.ranges
+    return [
+        Piece(value, (over, *inner), number, outer.first)
+        for over, (value,) in pieces(outer, entry.value)
+        if value != _ZERO
+    ]
+
+
+_ZERO = Number(0.0)
