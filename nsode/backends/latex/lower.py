@@ -134,13 +134,13 @@ def _call(function: str, args: tuple[Expr, ...], env: Environment) -> Tex:
         case "shrink":
             return Tex(rf"\min\left(1, \frac{{{texts[0]}}}{{{texts[1]}}}\right)", _POWER)
         case "mod":
-            left, right = _at_least(parts[0], _PRODUCT), _at_least(parts[1], _POWER)
-            return Tex(rf"{left} \bmod {right}", _SUM)
+            a, b = _at_least(parts[0], _PRODUCT), _at_least(parts[1], _POWER)
+            return Tex(rf"{a} \bmod {b}", _SUM)
         case "not":
             return Tex(rf"\neg {_at_least(parts[0], _ATOM)}", _LOGIC)
         case _ if function in _RELATIONS:
-            left, right = (_at_least(part, _SUM) for part in parts)
-            return Tex(f"{left} {_RELATIONS[function]} {right}", _COMPARE)
+            a, b = (_at_least(part, _SUM) for part in parts)
+            return Tex(f"{a} {_RELATIONS[function]} {b}", _COMPARE)
         case _ if function in _LOGICAL:
             return Tex(
                 f" {_LOGICAL[function]} ".join(_at_least(p, _COMPARE) for p in parts), _LOGIC

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from nsode.expr import TIME
-from nsode.ode import Binding, LinearSolve, SetValuedTerm, System
+from nsode.ode import Binding, LinearSolve, Placed, SetValuedTerm, System
 
 _SMALL = (
     *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa"),
@@ -113,7 +113,7 @@ def _attributes(system: System) -> Iterable[str]:
 
 
 def _names(system: System) -> Iterable[str]:
-    placed = (*system.states, *system.parameters, *system.inputs)
+    placed: list[Placed] = [*system.states, *system.parameters, *system.inputs]
     yield from (item.name for item in placed)
     for definition in system.bindings:
         match definition:
