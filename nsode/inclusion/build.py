@@ -11,8 +11,7 @@ from nsode.inclusion.declare import Declarations
 from nsode.inclusion.definitions import Definitions
 from nsode.inclusion.elaborate import condition, elaborate, number
 from nsode.inclusion.elements import Elements, distinct, rename, rename_definition
-from nsode.inclusion.equations import solve
-from nsode.inclusion.factors import prove_factor, take_checks
+from nsode.inclusion.factors import prove_factor, prover_of
 from nsode.inclusion.families import Bounds, defined, expressions, ranges
 from nsode.inclusion.hypotheses import Hypotheses, base_reads
 from nsode.inclusion.indices import index_range
@@ -23,12 +22,11 @@ from nsode.inclusion.review import Review
 from nsode.inclusion.rows import Rows
 from nsode.inclusion.settings import Approximations, run
 from nsode.inclusion.sharing import Numbering
-from nsode.inclusion.signs import Prover
+from nsode.inclusion.solving import solve
 from nsode.inclusion.symbols import Scope, Symbols
 from nsode.inclusion.units import check_units, in_si
 from nsode.inclusion.values import each, scalars, shape, suffixes
 from nsode.ode import (
-    Binding,
     Check,
     Definition,
     DifferentialInclusion,
@@ -227,18 +225,12 @@ class _Course:
         self._check_subscripts(inclusion)
         self.report.raise_errors()
         hypotheses = Hypotheses(base_reads(state.name for state in inclusion.states))
-        prover = Prover(Numbering(), {p.name: p for p in inclusion.parameters})
-        take_checks(prover, self.checks)
+        prover = prover_of(inclusion, self.checks)
         for item in inclusion.bindings:
             with self.report.collecting():
                 hypotheses.add(item)
-                match item:
-                    case Binding():
-                        prover.numbering.add(item)
-                    case SetValuedTerm(kind="dio"):
-                        prover.nonnegative.update(item.multiplier)
-                    case SetValuedTerm():
-                        self.checks.extend(prove_factor(prover, item, inclusion.source))
+                if isinstance(item, SetValuedTerm):
+                    self.checks.extend(prove_factor(prover, item, inclusion.source))
         for item in inclusion.bindings:
             if isinstance(item, LinearSolve):
                 for expr in item.right:

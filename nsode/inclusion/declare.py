@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, replace
 
 from nsode.diagnostics import refuse
 from nsode.evaluate import evaluate
-from nsode.expr import Call, Expr, IndexRange, Name, Number, names
+from nsode.expr import Call, Expr, Index, IndexRange, Name, Number, names
 from nsode.inclusion.elaborate import elaborate, number
+from nsode.inclusion.families import choose
 from nsode.inclusion.indices import check_size, index_range, integer
 from nsode.inclusion.review import Review
 from nsode.inclusion.settings import constant
@@ -208,8 +209,6 @@ class Declarations:
             limit = Number(constant(in_si(value, unit), "a bound"), span=bound.span)
             at = None
             if over is not None:
-                from nsode.expr import Index
-
                 at = Index(over.variable)
             condition = Call(
                 bound.relation, (Name(name, at, span=bound.span), limit), span=bound.span
@@ -219,8 +218,6 @@ class Declarations:
 
 def _listed(value: Value, symbol: Symbol) -> Value:
     """Return a list of one value for each element as a choice by index."""
-    from nsode.inclusion.families import choose
-
     assert isinstance(value, tuple)
     assert symbol.range is not None
     rows = [scalars(row) for row in value]
