@@ -17,6 +17,7 @@ from nsode import __version__
 COMMANDS: dict[str, str] = {
     "compile": "Write a model as code that integrates.",
     "simulate": "Run a model and show what happened.",
+    "analyze": "Show what is known of a model before it runs.",
     "check": "Say whether models are sound, and what is wrong where they are not.",
     "new": "Write a model to start from.",
     "doctor": "Show what nsode finds on this machine.",

@@ -6,10 +6,12 @@ import os
 import signal
 import subprocess
 import sys
+from importlib import import_module
+from pathlib import Path
 
 import pytest
 
-from nsode import compiler
+from nsode import cli, compiler
 from nsode.cli import COMMANDS, run
 from nsode.diagnostics import CODES
 from support import MODELS, listing
@@ -67,6 +69,12 @@ def test_help_names_every_command_and_imports_none_of_them():
 def test_every_command_explains_itself(name, capsys):
     assert run([name, "--help"]) == 0
     assert capsys.readouterr().out.startswith(f"Usage: nsode {name}")
+
+
+def test_every_command_that_exists_can_be_typed():
+    modules = {path.stem for path in Path(cli.__file__).parent.glob("*.py")}
+    found = {name for name in modules if hasattr(import_module(f"nsode.cli.{name}"), "command")}
+    assert found == set(COMMANDS)
 
 
 def test_version_is_told(capsys):
