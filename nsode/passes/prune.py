@@ -61,7 +61,8 @@ def prune(ode: AugmentedODE, outputs: Iterable[str] | None = None) -> AugmentedO
         layout; so do the values of everything that stays.
     outputs
         Names of outputs and states, a vector by its one name. Every state goes, auxiliary
-        ones included, on which none of them depends. None keeps all states and outputs.
+        ones included, on which none of them depends; a vector stays whole where that takes
+        no further state. None keeps all states and outputs.
 
     Raises
     ------
@@ -89,6 +90,7 @@ def _restrict(ode: AugmentedODE, asked: tuple[str, ...]) -> AugmentedODE:
     wanted = reads(*(y.value for y in outputs))
     wanted |= {x.name for x in ode.states if any(_selects(name, x) for name in asked)}
     kept = _reach(graph, wanted)
+    kept |= _completing(graph, kept, {x.name for x in ode.states})
     dropped = {x.name for x in ode.states} - kept
     return replace(
         ode,
@@ -127,3 +129,15 @@ def _reach(graph: Mapping[str, set[str]], start: set[str]) -> set[str]:
         found |= new
         front.extend(new)
     return found
+
+
+def _completing(graph: Mapping[str, set[str]], kept: set[str], states: set[str]) -> set[str]:
+    """Return components that complete a kept vector and rest on nothing but what is kept."""
+    begun = {_vector(name) for name in kept & states}
+    missing = {name for name in states - kept if _vector(name) in begun}
+    return {name for name in missing if _reach(graph, {name}) & states <= kept | {name}}
+
+
+def _vector(component: str) -> str:
+    """Return the name of the vector of which a name is a component: ``p`` of ``p.x``."""
+    return component.rpartition("[" if component.endswith("]") else ".")[0] or component

@@ -148,42 +148,29 @@ static inline int solve2(const real *a, real *b)
 """,
         (),
     ),
-    "solve3": (
-        """\
-/* Solves a 3x3 system in place; 0 if the matrix is singular to working accuracy. */
-static inline int solve3(const real *a, real *b)
-{
-    const real c00 = a[4]*a[8] - a[5]*a[7], c01 = a[5]*a[6] - a[3]*a[8];
-    const real c02 = a[3]*a[7] - a[4]*a[6];
-    const real c10 = a[2]*a[7] - a[1]*a[8], c11 = a[0]*a[8] - a[2]*a[6];
-    const real c12 = a[1]*a[6] - a[0]*a[7];
-    const real c20 = a[1]*a[5] - a[2]*a[4], c21 = a[2]*a[3] - a[0]*a[5];
-    const real c22 = a[0]*a[4] - a[1]*a[3];
-    const real det = a[0]*c00 + a[1]*c01 + a[2]*c02;
-    const real size = fabs@(a[0]*a[4]*a[8]) + fabs@(a[0]*a[5]*a[7]) + fabs@(a[1]*a[5]*a[6])
-        + fabs@(a[1]*a[3]*a[8]) + fabs@(a[2]*a[3]*a[7]) + fabs@(a[2]*a[4]*a[6]);
-    const real b0 = b[0], b1 = b[1], b2 = b[2];
-    if (fabs@(det) <= ROUNDING*size) {
-        return 0;
-    }
-    b[0] = (c00*b0 + c10*b1 + c20*b2)/det;
-    b[1] = (c01*b0 + c11*b1 + c21*b2)/det;
-    b[2] = (c02*b0 + c12*b1 + c22*b2)/det;
-    return 1;
-}
-""",
-        (),
-    ),
     "solve": (
         """\
-/* Solves an n x n system in place by Gauss elimination with partial pivoting; 0 if a pivot
-   vanishes to working accuracy against its column, whose sizes go to scale. */
-static int solve(int n, real *a, real *b, real *scale)
+/* Solves an n x n system in place by Gauss elimination, on rows of equal size, with partial
+   pivoting; 0 if the matrix is singular to working accuracy. */
+static int solve(int n, real *a, real *b, real *size)
 {
-    for (int k = 0; k < n; ++k) {
-        scale[k] = 0;
+    for (int i = 0; i < n; ++i) {
+        real largest = 0;
+        for (int j = 0; j < n; ++j) {
+            largest = larger(largest, fabs@(a[n*i + j]));
+        }
+        if (largest == 0) {
+            return 0;
+        }
+        for (int j = 0; j < n; ++j) {
+            a[n*i + j] /= largest;
+        }
+        b[i] /= largest;
+    }
+    for (int j = 0; j < n; ++j) {
+        size[j] = 0;
         for (int i = 0; i < n; ++i) {
-            scale[k] = fabs@(a[n*i + k]) > scale[k] ? fabs@(a[n*i + k]) : scale[k];
+            size[j] = larger(size[j], fabs@(a[n*i + j]));
         }
     }
     for (int k = 0; k < n; ++k) {
@@ -191,13 +178,13 @@ static int solve(int n, real *a, real *b, real *scale)
         for (int i = k + 1; i < n; ++i) {
             pivot = fabs@(a[n*i + k]) > fabs@(a[n*pivot + k]) ? i : pivot;
         }
-        if (fabs@(a[n*pivot + k]) <= ROUNDING*scale[k]) {
+        if (fabs@(a[n*pivot + k]) <= 2*(real)n*ROUNDING*size[k]) {
             return 0;
         }
         for (int j = 0; j < n; ++j) {
-            const real swapped = a[n*k + j];
+            const real moved = a[n*k + j];
             a[n*k + j] = a[n*pivot + j];
-            a[n*pivot + j] = swapped;
+            a[n*pivot + j] = moved;
         }
         const real moved = b[k];
         b[k] = b[pivot];
@@ -219,7 +206,7 @@ static int solve(int n, real *a, real *b, real *scale)
     return 1;
 }
 """,
-        (),
+        ("larger",),
     ),
 }
 

@@ -24,7 +24,8 @@ def write(solve: LinearSolve, writer: Writer) -> None:
     writer.line(f"real {vector}[] = {{{', '.join(right)}}};")
     _leave_if(f"!{_call(len(right), matrix, vector, writer)}", writer)
     for row, unknown in enumerate(solve.unknowns):
-        writer.define(unknown, solve.range, f"{vector}[{row}]")
+        if unknown in writer.plan.read:
+            writer.define(unknown, solve.range, f"{vector}[{row}]")
 
 
 def _divide(solve: LinearSolve, divisor: str, right: str, writer: Writer) -> None:
@@ -36,13 +37,14 @@ def _divide(solve: LinearSolve, divisor: str, right: str, writer: Writer) -> Non
 
 
 def _call(n: int, matrix: str, vector: str, writer: Writer) -> str:
-    if n <= 3:
-        writer.use(f"solve{n}")
-        return f"solve{n}({matrix}, {vector})"
+    if n == 2:
+        writer.use("solve2")
+        return f"solve2({matrix}, {vector})"
+    # From three on, cofactors lose more digits than the condition of the matrix costs.
     writer.use("solve")
-    scale = writer.fresh("scale")
-    writer.line(f"real {scale}[{n}];")
-    return f"solve({n}, {matrix}, {vector}, {scale})"
+    size = writer.fresh("size")
+    writer.line(f"real {size}[{n}];")
+    return f"solve({n}, {matrix}, {vector}, {size})"
 
 
 def _leave_if(test: str, writer: Writer) -> None:
