@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 
 from nsode.diagnostics import Diagnostic
 from nsode.expr import TIME, Expr
@@ -13,7 +12,7 @@ from nsode.inclusion.units.dimension import SECOND
 from nsode.inclusion.units.elements import check_element
 from nsode.inclusion.units.inference import Inference, head
 from nsode.inclusion.units.quantity import TIME as SECONDS
-from nsode.inclusion.units.quantity import UNKNOWN, Quantity, times, to_the
+from nsode.inclusion.units.quantity import UNKNOWN, Quantity, over, times
 from nsode.inclusion.units.values import check_value
 from nsode.inclusion.values import is_zero
 from nsode.ode import (
@@ -61,13 +60,9 @@ def _inference(inclusion: DifferentialInclusion, declared: Declared) -> Inferenc
     for state in inclusion.states:
         quantity = known.get(state.name)
         if quantity is not None:
-            known[f"der({state.name})"] = _rate_of(quantity)
+            known[f"der({state.name})"] = over(quantity, _SECONDS)
     places = {name: unit.written.span for name, unit in declared.names.items()}
     return Inference(known, places)
-
-
-def _rate_of(quantity: Quantity) -> Quantity:
-    return times(quantity, to_the(_SECONDS, Fraction(-1)))
 
 
 @dataclass(slots=True)

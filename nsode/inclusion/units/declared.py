@@ -8,7 +8,6 @@ from typing import NamedTuple, TypeVar
 
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.inclusion.units.inference import head
-from nsode.inclusion.units.library import Measure
 from nsode.inclusion.units.quantity import Quantity
 from nsode.inclusion.units.reading import measure
 from nsode.ode import Binding, Definition, DifferentialInclusion, Input, Output, Parameter, State
@@ -19,20 +18,16 @@ _Item = TypeVar("_Item", State, Input, Parameter, Output)
 
 
 class DeclaredUnit(NamedTuple):
-    """A unit as written, and what it is in SI."""
+    """A unit as written, and what it makes known; a coherent one converts nothing."""
 
     written: ast.Unit
-    measure: Measure
-
-    @property
-    def quantity(self) -> Quantity:
-        """What it makes known of a value."""
-        return Quantity(self.measure.dimension, text=self.written.text)
+    quantity: Quantity
+    coherent: bool
 
     @property
     def in_si(self) -> str:
         """The unit that values have once they are converted."""
-        return self.written.text if self.measure.scale == 1 else str(self.measure.dimension)
+        return self.written.text if self.coherent else str(self.quantity.dimension)
 
 
 @dataclass(slots=True)
@@ -51,10 +46,11 @@ class Declared:
     def measured(self, unit: ast.Unit) -> DeclaredUnit | None:
         """Return a unit with its measure, None (and an error kept) for an unknown one."""
         try:
-            return DeclaredUnit(unit, measure(unit))
+            scale, dimension = measure(unit)
         except ModelError as error:
             self.unknown.extend(error.diagnostics)
             return None
+        return DeclaredUnit(unit, Quantity(dimension, text=unit.text), scale == 1)
 
 
 def declared_units(model: ast.Model) -> Declared:

@@ -44,34 +44,41 @@ def power(of: Dimension, exponent: Fraction) -> Dimension:
     return dimension(tuple(a * exponent for a in of.exponents))
 
 
+@cache
+def inverse(of: Dimension) -> Dimension:
+    """Return the dimension of a reciprocal."""
+    return power(of, Fraction(-1))
+
+
 def quotient(left: Dimension, right: Dimension) -> Dimension:
     """Return the dimension of a quotient."""
-    return product(left, power(right, Fraction(-1)))
+    return product(left, inverse(right))
 
 
 ONE = dimension((Fraction(0),) * len(BASE))
 SECOND = base("s")
-#: Units that make a dimension shorter to read: ``N/m`` is better known than ``kg/s^2``.
-_READABLE = {
-    "N": product(base("kg"), product(base("m"), base("s", Fraction(-2)))),
-    "Pa": product(base("kg"), product(base("m", Fraction(-1)), base("s", Fraction(-2)))),
-    "W": product(base("kg"), product(base("m", Fraction(2)), base("s", Fraction(-3)))),
-    "V": product(
-        product(base("kg"), base("A", Fraction(-1))),
-        product(base("m", Fraction(2)), base("s", Fraction(-3))),
-    ),
-}
+_NEWTON = product(base("kg"), product(base("m"), base("s", Fraction(-2))))
+_VOLT = product(product(_NEWTON, base("m")), inverse(product(base("A"), SECOND)))
+_MASS, _CURRENT = BASE.index("kg"), BASE.index("A")
+_HUGE = 1000
 
 
 @cache
 def _shortest(of: Dimension) -> str:
-    """Write a dimension in base units, or with one of the readable units if that is shorter."""
+    """Write a dimension in base units, or with N or V for its mass if that is shorter."""
+    if any(max(abs(e.numerator), e.denominator) > _HUGE for e in of.exponents):
+        return "a huge power"
     written = [list(zip(BASE, of.exponents, strict=True))]
-    for symbol, known in _READABLE.items():
-        for exponent in (Fraction(1), Fraction(-1)):
-            rest = quotient(of, power(known, exponent))
-            written.append([(symbol, exponent), *zip(BASE, rest.exponents, strict=True)])
+    if mass := of.exponents[_MASS]:
+        symbol, known = ("V", _VOLT) if of.exponents[_CURRENT] else ("N", _NEWTON)
+        rest = quotient(of, power(known, mass))
+        written.append([(symbol, mass), *zip(BASE, rest.exponents, strict=True)])
     return _text(min(written, key=lambda factors: sum(abs(e) for _, e in factors)))
+
+
+def simple(of: Dimension) -> bool:
+    """Tell whether a dimension is that of one unit, or of a product or quotient of two."""
+    return sum(abs(e) for e in of.exponents) <= 2
 
 
 def _text(factors: list[tuple[str, Fraction]]) -> str:

@@ -19,6 +19,7 @@ from nsode.inclusion.units.quantity import (
     NUMBER,
     UNKNOWN,
     Quantity,
+    over,
     times,
     to_the,
 )
@@ -78,7 +79,7 @@ class Inference:
             case "*":
                 return times(*values)
             case "/":
-                return times(values[0], to_the(values[1], Fraction(-1)))
+                return over(*values)
             case "neg" | "abs":
                 return values[0]
             case "^":
@@ -182,6 +183,6 @@ def rational(expr: Expr) -> Fraction | None:
             negated = rational(inner)
             return None if negated is None else -negated
         case Call("/", (left, right)):
-            over, under = rational(left), rational(right)
-            return None if over is None or not under else over / under
+            above, below = rational(left), rational(right)
+            return None if above is None or not below else above / below
     return None

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 from typing import NamedTuple
 
-from nsode.inclusion.units.dimension import ONE, SECOND, Dimension, power, product
+from nsode.inclusion.units.dimension import ONE, SECOND, Dimension, power, product, quotient
 from nsode.ode import SetValuedTerm
 
 
@@ -44,8 +45,13 @@ def constant(
 ) -> Dimension | None:
     """Return the dimension of a constant, None where nothing tells."""
     powers = _powers(term, name)
-    if powers is None:
-        return None
+    return None if powers is None else _combined(powers, force, argument)
+
+
+@cache
+def _combined(
+    powers: _Powers, force: Dimension | None, argument: Dimension | None
+) -> Dimension | None:
     found = power(SECOND, Fraction(powers.time))
     for of, exponent in ((force, powers.force), (argument, powers.argument)):
         if exponent and of is None:
@@ -60,7 +66,7 @@ def force(term: SetValuedTerm, stiffness: Dimension, argument: Dimension) -> Dim
     for_unit_force = constant(term, "K", ONE, argument)
     if for_unit_force is None:
         return None
-    return product(stiffness, power(for_unit_force, Fraction(-1)))
+    return quotient(stiffness, for_unit_force)
 
 
 def follows_from_units(term: SetValuedTerm, name: str) -> bool:

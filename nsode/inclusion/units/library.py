@@ -63,7 +63,9 @@ def look_up(word: str) -> Measure:
         zero = registry.Quantity(0.0, word).to_base_units()
         one = registry.Quantity(1.0, word).to_base_units()
     except (pint.errors.PintError, ValueError):
-        raise UnknownUnitError(f"unknown unit `{word}`") from None
+        raise UnknownUnitError(
+            f"unknown unit `{word}`", "write SI units, for example `{N/m}` or `{m/s^2}`"
+        ) from None
     if zero.magnitude != 0:
         raise _no_factor(word, one.dimensionality)
     found = ONE
@@ -71,7 +73,8 @@ def look_up(word: str) -> Measure:
         if name not in _BASE_OF:
             raise UnitError(f"`{word}` has no measure in SI", "leave it out, or write `{1}`")
         found = product(found, base(_BASE_OF[name], Fraction(str(exponent))))
-    return Measure(Fraction(repr(float(one.magnitude))), found)
+    exact = f"{one.magnitude:.15g}"  # pint multiplies floats: what lies beyond is noise
+    return Measure(Fraction(exact), found)
 
 
 @cache

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nsode.diagnostics import Diagnostic, Label
-from nsode.inclusion.units.dimension import ONE, Dimension, quotient
+from nsode.inclusion.units.dimension import ONE, quotient, simple
 from nsode.inclusion.units.quantity import Quantity
 from nsode.source import Span
 
@@ -40,7 +40,7 @@ def no_rate(
     """Return the error for an equation whose sides differ."""
     return _misfit(
         f"the units of this equation do not fit: `der({state})` is {wanted}, not {value}",
-        (Label(equation, f"this makes it {value}"), Label(unit, f"so `der({state})` is {wanted}")),
+        (Label(equation, f"here it is {value}"), Label(unit, f"so `der({state})` is {wanted}")),
         _apart(wanted, value),
     )
 
@@ -59,12 +59,16 @@ def no_constant(
     )
 
 
-def unconverted(number: Span, unit: Span, text: str, si: Dimension) -> Diagnostic:
+def unconverted(number: Span, unit: Span, declared: Quantity) -> Diagnostic:
     """Return the error for a formula in a unit beyond SI: its numbers would be read in SI."""
     return _misfit(
-        f"`{text}` converts a value made of numbers alone, and this one is a formula",
-        (Label(number, f"read in `{si}`"), Label(unit, f"not in `{text}`")),
-        f"declare the number, for example `parameter a = 1 {{{text}}}`, or write `{{{si}}}`",
+        f"`{declared.text}` converts a value made of numbers alone, and this one is a formula",
+        (
+            Label(number, f"read in `{declared.dimension}`"),
+            Label(unit, f"not in `{declared.text}`"),
+        ),
+        f"write `{{{declared.dimension}}}`, or declare the number: "
+        f"`parameter a = 1 {{{declared.text}}}`",
     )
 
 
@@ -80,8 +84,9 @@ def _apart(one: Quantity, other: Quantity) -> str:
     assert one.dimension is not None
     assert other.dimension is not None
     ratio = quotient(one.dimension, other.dimension)
-    inverse = quotient(other.dimension, one.dimension)
-    factor = min(str(ratio), str(inverse), key=len)
+    if not simple(ratio):
+        return "look for a wrong name, or for a wrong unit where one is declared"
+    factor = min(str(ratio), str(quotient(ONE, ratio)), key=len)
     return f"they differ by a factor in `{factor}`: one is missing, or a declared unit is wrong"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from nsode.inclusion.units.dimension import ONE, SECOND, Dimension, power, product
+from nsode.inclusion.units.dimension import ONE, SECOND, Dimension, inverse, power, product
 
 
 class Quantity(NamedTuple):
@@ -48,6 +48,13 @@ def times(left: Quantity, right: Quantity) -> Quantity:
     if right.dimension is ONE:
         return Quantity(left.dimension, flexible, left.text)
     return Quantity(product(left.dimension, right.dimension), flexible)
+
+
+def over(left: Quantity, right: Quantity) -> Quantity:
+    """Return what is known of a quotient."""
+    if right.dimension is None or right.dimension is ONE:
+        return times(left, right)
+    return times(left, Quantity(inverse(right.dimension), right.flexible))
 
 
 def to_the(base: Quantity, exponent: Fraction) -> Quantity:

@@ -15,11 +15,10 @@ def check_value(what: str, value: Expr, unit: DeclaredUnit, inference: Inference
     found, wanted, written = inference.of(value), unit.quantity, unit.written
     if found.rigid not in (None, wanted.dimension):
         inference.add(messages.no_value(what, found, value.span, wanted, written.span))
-    elif unit.measure.scale != 1 and any(True for _ in names(value)):
+    elif not unit.coherent and any(True for _ in names(value)):
         number = _unconverted(value, inference)
         if number is not None:
-            si = unit.measure.dimension
-            inference.add(messages.unconverted(number.span, written.span, written.text, si))
+            inference.add(messages.unconverted(number.span, written.span, wanted))
     return wanted
 
 
