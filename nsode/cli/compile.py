@@ -13,10 +13,12 @@ from nsode.cli.failure import USAGE, io_diagnostic
 from nsode.cli.model import load, summary
 from nsode.cli.terminal import bold, complain, quiet, say
 from nsode.files import write_all
+from nsode.ode import AugmentedODE
 
 if TYPE_CHECKING:
     from nsode.compiler import Model
 
+_SHOWN = 12
 _PREFIX = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 
 
@@ -25,6 +27,12 @@ def _prefix(context: click.Context, parameter: click.Parameter, value: str | Non
     if value is not None and not _PREFIX.fullmatch(value):
         raise click.BadParameter("a letter, then up to 63 letters, digits and underscores")
     return value
+
+
+def _names(
+    context: click.Context, parameter: click.Parameter, value: str | None
+) -> list[str] | None:
+    return None if value is None else [name.strip() for name in value.split(",")]
 
 
 @click.command()
@@ -42,26 +50,56 @@ def _prefix(context: click.Context, parameter: click.Parameter, value: str | Non
     help="The numbers of the C.",
 )  # fmt: skip
 @click.option("--prefix", callback=_prefix, help="What names begin with.  [default: the model's]")
-def command(model: str, target: str, folder: Path, real: str, prefix: str | None) -> int:
+@click.option(
+    "--outputs", callback=_names, metavar="NAMES",
+    help="Keep only what these outputs and states, such as p,v, depend on.",
+)  # fmt: skip
+def command(
+    model: str,
+    target: str,
+    folder: Path,
+    real: str,
+    prefix: str | None,
+    outputs: list[str] | None,
+) -> int:
     """Write MODEL as code that integrates.
 
     The C is plain C99 without allocation: copy it anywhere. Every file is written
     whole, or none is.
     """
     loaded = load(model)
-    complain(loaded.diagnostics, loaded.ode.source)
+    complain(loaded.diagnostics, loaded.source)
+    whole = loaded.ode
+    if outputs is not None:
+        loaded = _only(loaded, outputs)
     options = Options(prefix=prefix, real=cast(Literal["double", "float"], real))
     try:
         paths = write_all(loaded.emit(target, options), folder)
     except OSError as error:
         complain([io_diagnostic("NS602", error)])
         return USAGE
-    _show(loaded, paths)
+    say(f"{bold(loaded.name)}: {summary(loaded)}")
+    _show_dropped(whole, loaded.ode)
+    _show(paths)
     return 0
 
 
-def _show(model: Model, paths: list[Path]) -> None:
-    say(f"{bold(model.ode.name)}: {summary(model)}")
+def _only(model: Model, outputs: list[str]) -> Model:
+    try:
+        return model.only(outputs)
+    except ValueError as error:
+        raise click.BadParameter(str(error), param_hint="`--outputs`") from error
+
+
+def _show_dropped(whole: AugmentedODE, kept: AugmentedODE) -> None:
+    left = {state.name for state in kept.states}
+    dropped = [state.name for state in whole.states if state.name not in left]
+    if dropped:
+        more = f" and {len(dropped) - _SHOWN:,} more" if len(dropped) > _SHOWN else ""
+        say(f"  left out: {', '.join(dropped[:_SHOWN])}{more}")
+
+
+def _show(paths: list[Path]) -> None:
     width = max(len(str(path)) for path in paths)
     for path in paths:
         say(f"  {path!s:<{width}}  {_bytes(path.stat().st_size):>8}")

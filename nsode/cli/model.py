@@ -45,7 +45,9 @@ def load(argument: str) -> Model:
 
 def summary(model: Model) -> str:
     """Return how large the augmented ODE of a model is, on one line."""
-    ode, terms = model.ode, model.inclusion.terms
+    ode = model.ode
+    acting = {auxiliary.term for auxiliary in ode.auxiliary}
+    terms = tuple(term for term in model.inclusion.terms if term.name in acting)
     added = sum(map(size, ode.auxiliary))
     own = sum(map(size, ode.states)) - added
     auxiliary = f" + {added} auxiliary" if added else ""

@@ -294,6 +294,22 @@ def test_a_prefix_names_files_and_functions(sound, tmp_path):
     assert "abc_step_rk4" in (tmp_path / "out" / "abc.h").read_text()
 
 
+def test_only_what_was_asked_for_is_compiled(tmp_path, capsys):
+    sphere = next(model for model in MODELS if model.stem == "rolling_sphere")
+    out = tmp_path / "out"
+    assert run(["compile", str(sphere), "-o", str(out), "--outputs", "depth"]) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert told[0] == "rolling_sphere: 2 states + 1 auxiliary, 1 set-valued term (N: dio)"
+    assert told[1].startswith("  left out: p.x, p.y, v.x, v.y, w.x")
+    assert "rolling_sphere_NX = 3" in (out / "rolling_sphere.h").read_text()
+
+
+def test_an_output_that_there_is_not_is_wrong_usage(sound, tmp_path, capsys):
+    assert run(["compile", str(sound), "-o", str(tmp_path / "out"), "--outputs", "zz"]) == 2
+    assert "`zz`" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 def test_a_folder_may_begin_with_a_dash(sound, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run(["compile", str(sound), "-o", "-odd"]) == 0
