@@ -80,7 +80,7 @@ class Definitions:
         raw = {term.multiplier: term for term in self.hoister.terms}
         for name, term in raw.items():
             self.symbols.declared.setdefault(name, term.span)
-        keys = sorted([*self._pending, *raw], key=lambda key: self._start(key, raw))
+        keys = sorted({*self._pending, *raw}, key=lambda key: self._start(key, raw))
         reads = {key: list(self._reads(key, raw)) for key in keys}
         ordered = order(keys, reads)
         if len(ordered) < len(keys):

@@ -10,7 +10,7 @@ from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
 from nsode.expr import FUNCTIONS, TIME, Call, Expr, If, Index, Name, Number, Sum, negate
 from nsode.inclusion import values
 from nsode.inclusion.indices import index, index_range
-from nsode.inclusion.symbols import CALLABLE, Scope, Symbol, known_functions
+from nsode.inclusion.symbols import CALLABLE, SET_VALUED, Scope, Symbol, known_functions
 from nsode.inclusion.values import (
     Shape,
     ShapeError,
@@ -117,7 +117,9 @@ def condition(expr: Expr, scope: Scope) -> Expr:
 
 def is_condition(expr: Expr) -> bool:
     """Tell whether an expression is true or false rather than a number."""
-    return isinstance(expr, Call) and FUNCTIONS[expr.function].boolean
+    return (
+        isinstance(expr, Call) and expr.function in FUNCTIONS and (FUNCTIONS[expr.function].boolean)
+    )
 
 
 def components(name: str, of: Shape, at: Index | None, span_of: Expr) -> Value:
@@ -260,6 +262,14 @@ def _call(expr: Call, scope: Scope) -> Value:
         )
     if expr.function == "der":
         return scope.derivative(expr, scope)
+    if expr.function in SET_VALUED:
+        raise refuse(
+            "NS111",
+            f"`{expr.function}` has no single value here",
+            expr.span,
+            "a constant is needed",
+            help="set-valued terms stand in equations, `let`, `force` and `output`",
+        )
     args = tuple(elaborate(arg, scope) for arg in expr.args)
     try:
         return _apply(expr, args)

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
+from nsode.evaluate import evaluate
 from nsode.expr import Expr, Index, IndexRange, Name, Number, add, divide, names, negate
 from nsode.inclusion.coverage import check_coverage, doubled
 from nsode.inclusion.equations import (
@@ -17,11 +18,11 @@ from nsode.inclusion.equations import (
     state_of,
 )
 from nsode.inclusion.values import is_zero
-from nsode.ode import Binding, LinearSolve, Rate, State
+from nsode.ode import Binding, LinearSolve, Parameter, Rate, State
 
 
 def solve(
-    rows: Sequence[Row], states: Sequence[State]
+    rows: Sequence[Row], states: Sequence[State], parameters: Sequence[Parameter] = ()
 ) -> tuple[list[Binding | LinearSolve], list[Rate]]:
     """Return the rate of every state, and what must be computed on the way.
 
@@ -50,6 +51,7 @@ def solve(
         open_rows = [_substitute(r, solved) for r in open_rows]
     for group in _coupled(open_rows):
         system = _system(group)
+        _check_rank(system.matrix, {p.name: p.values for p in parameters}, group)
         bindings.append(system)
         rates.extend(
             Rate(state_of(unknown), unknown, group[0].range, span=r.span)
@@ -181,3 +183,42 @@ def _check_regular(matrix: tuple[tuple[Expr, ...], ...], group: Sequence[Row]) -
                         )
                     ]
                 )
+
+
+def _check_rank(
+    matrix: tuple[tuple[Expr, ...], ...],
+    values: Mapping[str, tuple[float, ...]],
+    group: Sequence[Row],
+) -> None:
+    """Refuse a matrix of parameters alone that is singular at their values."""
+
+    def value(name: str, at: int | None) -> float:
+        return values[name][0]
+
+    read = {name.id for row in matrix for entry in row for name in names(entry)}
+    if not all(len(values.get(name, ())) == 1 for name in read) or group[0].range is not None:
+        return
+    numbers = [[evaluate(entry, value) for entry in row] for row in matrix]
+    if _is_singular(numbers):
+        raise refuse(
+            "NS113",
+            "the mass matrix is singular",
+            group[-1].span,
+            "this row follows from the others",
+            help="each equation must say something new about the derivatives",
+        )
+
+
+def _is_singular(rows: list[list[float]]) -> bool:
+    """Tell whether elimination meets a pivot that is zero up to rounding."""
+    scales = [max(map(abs, row)) for row in rows]
+    for k in range(len(rows)):
+        pivot = max(range(k, len(rows)), key=lambda j: abs(rows[j][k]) / (scales[j] or 1.0))
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        scales[k], scales[pivot] = scales[pivot], scales[k]
+        if not abs(rows[k][k]) > 1e-14 * scales[k]:
+            return True
+        for j in range(k + 1, len(rows)):
+            factor = rows[j][k] / rows[k][k]
+            rows[j] = [a - factor * b for a, b in zip(rows[j], rows[k], strict=True)]
+    return False

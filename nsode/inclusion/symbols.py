@@ -126,12 +126,13 @@ def check_free(name: str, span: Span) -> None:
                     "NS103",
                     f"`{name}` cannot be declared: {reason}",
                     (Label(span, "reserved"),),
-                    help=f"choose another name, for example `{name}1`"
-                    if name != "t"
-                    else "choose another name, for example `time`",
+                    help=f"choose another name, for example `{_FREE.get(name, f'my_{name}')}`",
                 )
             ]
         )
+
+
+_FREE = {"t": "time", "sgn": "sign", "dio": "contact", "der": "rate"}
 
 
 def _reserved(name: str) -> str | None:
