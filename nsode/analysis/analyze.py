@@ -51,7 +51,7 @@ def analyze(
     schemes : mapping of str to Scheme, optional
         The methods; None takes all.
     """
-    scene = Scene(inclusion)
+    scene = Scene(inclusion, [p for p in ode.parameters if p.constant_of is not None])
     local, mass, load = _at_start(scene)
     states = [np.asarray(x, dtype=float)[: len(scene.state_names)] for x in along]
     places = [reachable(scene, local)]

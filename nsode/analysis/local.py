@@ -21,6 +21,7 @@ from nsode.ode import (
     Definition,
     DifferentialInclusion,
     LinearSolve,
+    Parameter,
     Rate,
     SetValuedTerm,
     Slot,
@@ -105,11 +106,16 @@ class Local:
 
 
 class Scene:
-    """The derivatives that the analysis of one inclusion rests on."""
+    """The derivatives that the analysis of one inclusion rests on.
 
-    def __init__(self, inclusion: DifferentialInclusion) -> None:
+    ``chosen`` are the constants of the approximation, where they are not the model's.
+    """
+
+    def __init__(
+        self, inclusion: DifferentialInclusion, chosen: Iterable[Parameter] | None = None
+    ) -> None:
         self.inclusion = inclusion
-        self.parameters = constants(inclusion)
+        self.parameters = tuple(constants(inclusion) if chosen is None else chosen)
         self.states = layout(inclusion.states)
         self.state_names = element_names(inclusion.states)
         self.multipliers = _slots(inclusion.terms)

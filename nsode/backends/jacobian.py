@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from nsode.derivative import Entry, Pattern, jacobian, pattern
-from nsode.expr import Expr, IndexRange, Number
+from nsode.expr import Expr, IndexRange, Name, Number
 from nsode.ode import AugmentedODE, layout
 from nsode.passes.split import pieces, settle
 
@@ -15,9 +15,12 @@ from nsode.passes.split import pieces, settle
 class Piece:
     """Values of one entry: ``value`` over the ranges, the outermost in one piece.
 
-    ``number`` is that of the entry, whose outermost range begins at ``first``.
+    ``row`` and ``column`` are the states that it derives, and by which. ``number`` is that
+    of the entry, whose outermost range begins at ``first``.
     """
 
+    row: Name
+    column: Name
     value: Expr
     ranges: tuple[IndexRange, ...]
     number: int
@@ -54,10 +57,10 @@ def _pieces(entry: Entry, number: int) -> Sequence[Piece]:
     """Break an entry where its value changes; pieces that are zero go."""
     if not entry.ranges:
         value = settle(entry.value)
-        return [] if value == _ZERO else [Piece(value, (), number)]
+        return [] if value == _ZERO else [Piece(entry.row, entry.column, value, (), number)]
     outer, *inner = entry.ranges
     return [
-        Piece(value, (over, *inner), number, outer.first)
+        Piece(entry.row, entry.column, value, (over, *inner), number, outer.first)
         for over, (value,) in pieces(outer, entry.value)
         if value != _ZERO
     ]

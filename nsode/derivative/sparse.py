@@ -14,6 +14,7 @@ from math import prod
 from typing import TYPE_CHECKING, NamedTuple
 
 from nsode.derivative.forward import Row, defined
+from nsode.derivative.parts import with_parts
 from nsode.derivative.rules import (
     ONE,
     ZERO,
@@ -115,24 +116,40 @@ class _Chain:
     variables: dict[str, str | None] = field(default_factory=dict)
     spreads: dict[str, list[_Spread]] = field(default_factory=dict)
     emitted: list[Definition] = field(default_factory=list)
+    parts: int = 0
 
     def define(self, item: Definition) -> None:
         for name in defined(item):
             self.variables[name] = item.range.variable if item.range else None
         match item:
             case Binding(name, value, span):
-                bands, spread = self._derive(value, span)
-                self.known[name] = [
-                    _Dependence(key, self._named(name, key, terms, span))
-                    for key, terms in bands.items()
-                ]
-                if spread:
-                    self._add_hub(name, spread, span)
-                    self.known[name].append(_Dependence(_own(name, span), ONE))
+                self._define(name, self._parted(name, value, span), span)
             case LinearSolve():
                 self._define_solve(item)
             case SetValuedTerm():
                 pass
+
+    def _define(self, name: str, value: Expr, span: IndexRange | None) -> None:
+        bands, spread = self._derive(value, span)
+        self.known[name] = [
+            _Dependence(key, self._named(name, key, terms, span)) for key, terms in bands.items()
+        ]
+        if spread:
+            self._add_hub(name, spread, span)
+            self.known[name].append(_Dependence(_own(name, span), ONE))
+
+    def _parted(self, name: str, value: Expr, span: IndexRange | None) -> Expr:
+        """Return a value whose larger arguments have become definitions of their own."""
+
+        def named(part: Expr) -> Name:
+            self.parts += 1
+            label = f"{name}.part{self.parts}"
+            self.variables[label] = span.variable if span else None
+            self.emitted.append(Binding(label, part, span, role="part", span=part.span))
+            self._define(label, part, span)
+            return _own(label, span)
+
+        return with_parts(value, named)
 
     def _derive(
         self, value: Expr, span: IndexRange | None
@@ -193,7 +210,8 @@ class _Chain:
         for number, (row, right) in enumerate(zip(solve.matrix, solve.right, strict=True)):
             known = (_own(unknown, solve.range) for unknown in solve.unknowns)
             products = [negate(multiply(a, u)) for a, u in zip(row, known, strict=True)]
-            bands, spread = self._derive(add(right, *products), solve.range)
+            value = self._parted(solve.unknowns[number], add(right, *products), solve.range)
+            bands, spread = self._derive(value, solve.range)
             for key, terms in bands.items():
                 columns.setdefault(key, {})[number] = add(*terms)
             if spread:
@@ -214,7 +232,8 @@ class _Chain:
             self.known[unknown].append(_Dependence(key, _own(label, solve.range)))
 
     def entries(self, row: Row | Rate) -> Iterator[Entry]:
-        bands, spread = self._derive(row.value, row.range)
+        value = self._parted(f"{row.state}.rate", row.value, row.range)
+        bands, spread = self._derive(value, row.range)
         ranges = (row.range,) if row.range else ()
         own = _own(row.state, row.range)
         for key, terms in bands.items():

@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 import nsode
+from nsode.backends import Options, emit
 from nsode.backends.casadi import functions
 from nsode.derivative import derivative, jacobian, partials, pattern, time_derivative
 from nsode.evaluate import evaluate
 from nsode.expr import FUNCTIONS, Call, Expr, If, Index, IndexRange, Name, Number, Sum
-from nsode.ode import Binding, LinearSolve, Rate, State, layout
+from nsode.ode import AugmentedODE, Binding, LinearSolve, Rate, State, layout
 from tests.support import MODELS
 from tests.support.native import Native, build
 from tests.support.odes import Maker, call, ode, of_rates
@@ -187,6 +188,19 @@ def dense(native: Native, *arguments: object) -> np.ndarray:
     return matrix
 
 
+def dense_of_numpy(made: AugmentedODE, x: np.ndarray) -> np.ndarray:
+    """Return the Jacobian that the NumPy module computes."""
+    (text,) = emit("numpy", made, Options()).values()
+    code: dict = {}
+    exec(compile(text, "made", "exec"), code)
+    matrix = np.zeros((len(x), len(x)))
+    values, starts = code["jac"](0.1, x), code["jac_columns"]
+    for j in range(len(x)):
+        places = slice(starts[j], starts[j + 1])
+        matrix[code["jac_rows"][places], j] = values[places]
+    return matrix
+
+
 def slopes_of(native: Native, x: np.ndarray, h: float) -> np.ndarray:
     steps = h * np.eye(len(x))
     return np.array([(native.rhs(0.1, x + e) - native.rhs(0.1, x - e)) / (2 * h) for e in steps]).T
@@ -202,6 +216,7 @@ def test_the_jacobian_in_c_is_that_of_finite_differences_and_of_casadi(seed, tmp
     smooth = np.isclose(coarse, fine, rtol=1e-5, atol=1e-6)
     assert smooth.mean() > 0.9
     np.testing.assert_allclose(found[smooth], coarse[smooth], rtol=2e-4, atol=2e-5)
+    np.testing.assert_allclose(dense_of_numpy(made, x), found, rtol=1e-11, atol=1e-11)
     rhs = functions(made).rhs
     wanted = rhs.jacobian()(0.1, x, native._u(None), native.p0, 0)[1]
     np.testing.assert_allclose(found, np.array(wanted), rtol=1e-9, atol=1e-9)
@@ -219,8 +234,19 @@ def test_the_jacobian_of_a_model_is_casadis_away_from_kinks_and_finite_at_them(p
         wanted = np.array(slopes(0.1, x, native._u(None), native.p0, 0)[1])
         size = np.abs(wanted).max()
         np.testing.assert_allclose(dense(native, 0.1, x, None, None), wanted, atol=1e-12 * size)
+        np.testing.assert_allclose(dense_of_numpy(model.ode, x), wanted, atol=1e-12 * size)
     assert np.isfinite(dense(native, 0.0, start, None, None)).all()
     assert np.isfinite(dense(native, 0.0, np.zeros(len(start)), None, None)).all()
+
+
+def test_a_nest_of_functions_is_derived_part_by_part():
+    def nodes(depth: int) -> int:
+        expr: Expr = X
+        for _ in range(depth):
+            expr = call("sin", call("*", expr, expr) if expr is X else call("+", expr, 1.0))
+        return sum(len(repr(item)) for item in jacobian(of_rates(x=expr)).definitions)
+
+    assert nodes(40) < 2.3 * nodes(20)
 
 
 def test_a_state_that_nothing_drives_leaves_an_empty_pattern(tmp_path):

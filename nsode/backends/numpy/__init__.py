@@ -13,6 +13,8 @@ import re
 import nsode
 from nsode.backends import Options
 from nsode.backends.families import ranges
+from nsode.backends.jacobian import SparseJacobian, sparse_jacobian
+from nsode.backends.numpy import jacobian
 from nsode.backends.numpy.functions import Writer
 from nsode.backends.numpy.helpers import HELPERS
 from nsode.backends.numpy.lower import Environment, lower
@@ -31,11 +33,11 @@ _REAL = {"double": "float64", "float": "float32"}
 def emit(ode: AugmentedODE, options: Options) -> dict[str, str]:
     """Return the module as ``{"PREFIX.py": text}``.
 
-    It has ``rhs(t, x, u, p)``, ``out``, ``init`` and a ``step_*`` for each integrator
+    It has ``rhs(t, x, u, p)``, ``jac``, ``out``, ``init`` and a ``step_*`` for each integrator
     that has a tableau; ``u`` and ``p`` may be left out for their defaults.
     """
     stem = module_stem(options.prefix or ode.name)
-    return {f"{stem}.py": _module(stem, split(ode), _REAL[options.real])}
+    return {f"{stem}.py": _module(stem, sparse_jacobian(ode), _REAL[options.real])}
 
 
 def environment(ode: AugmentedODE) -> Environment:
@@ -45,12 +47,14 @@ def environment(ode: AugmentedODE) -> Environment:
     return Environment({**spelling, TIME: TIME}, found)
 
 
-def _module(stem: str, ode: AugmentedODE, real: str) -> str:
+def _module(stem: str, sparse: SparseJacobian, real: str) -> str:
+    ode = split(sparse.ode)
     writer = Writer(ode, environment(ode))
     functions = "\n\n\n".join(
         [
             _function(_RHS, "x, u, p", writer.rhs(), "dx"),
             _function(_OUT, "x, u, p", writer.out(), "y"),
+            *_jacobian(writer, sparse),
             _function(_INIT, "np.zeros(NX), u, p", writer.init(), "x", at_start=True),
             *steps(),
         ]
@@ -58,6 +62,16 @@ def _module(stem: str, ode: AugmentedODE, real: str) -> str:
     helpers = [text for name, text in HELPERS.items() if re.search(rf"\b{name}\(", functions)]
     head = "\n".join([_DOCSTRING.format(stem=stem), *tables(ode, real)])
     return "\n\n\n".join([head, *helpers, functions]) + "\n"
+
+
+def _jacobian(writer: Writer, sparse: SparseJacobian) -> list[str]:
+    """Return the places of the Jacobian, and the function that computes it."""
+    if not sparse.ode.states:
+        return []
+    return [
+        jacobian.table(sparse),
+        _function(jacobian.HEAD, "x, u, p", jacobian.body(writer, sparse), "J"),
+    ]
 
 
 _DOCSTRING = f'''\

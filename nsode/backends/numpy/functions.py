@@ -33,7 +33,7 @@ class Writer:
         """Return the lines that fill ``dx``."""
         slots = layout(self.ode.states)
         return [
-            *self._prepare(rate.value for rate in self.ode.rates),
+            *self.prepare(rate.value for rate in self.ode.rates),
             "dx = np.empty(NX, dtype=real)",
             *(self._place("dx", slots[rate.state], rate) for rate in self.ode.rates),
         ]
@@ -42,7 +42,7 @@ class Writer:
         """Return the lines that fill ``y``."""
         slots = layout(self.ode.outputs)
         return [
-            *self._prepare(output.value for output in self.ode.outputs),
+            *self.prepare(output.value for output in self.ode.outputs),
             "y = np.empty(NY, dtype=real)",
             *self._items("y", slots, [(item, item.value) for item in self.ode.outputs]),
         ]
@@ -54,8 +54,8 @@ class Writer:
         nonzero = [(s, s.initial) for s in self.ode.states if s.initial != Number(0.0)]
         own = [(s, value) for s, value in nonzero if s.name not in appended]
         later = [(s, value) for s, value in nonzero if s.name in appended]
-        first = list(self._prepare(value for _, value in own))
-        second = self._prepare(value for _, value in later)
+        first = list(self.prepare(value for _, value in own))
+        second = self.prepare(value for _, value in later)
         return [
             *first,
             *self._items("x", slots, own),
@@ -63,7 +63,7 @@ class Writer:
             *self._items("x", slots, later),
         ]
 
-    def _prepare(self, roots: Iterable[Expr]) -> Iterator[str]:
+    def prepare(self, roots: Iterable[Expr]) -> Iterator[str]:
         """Yield the lines for everything that some expressions read."""
         wanted = reads(*roots)
         definitions = needed(self.ode.bindings, wanted)

@@ -66,6 +66,30 @@ def flush(x):
 '''
 
 #: By name, in the order in which they stand in the module.
+_BAND = '''\
+def band(row, column, shape=(), row_axes=(), column_axes=(), first=0, after=NX):
+    """Return where values stand that begin at a place and move on along some axes.
+
+    Columns that are not in first, ..., after - 1 are -1: there is no such element.
+    """
+    steps = np.indices((np.size(row), *shape)).reshape(1 + len(shape), -1)
+    rows, columns = (
+        np.ravel(start)[steps[0]] + sum(steps[1 + axis] for axis in axes)
+        for start, axes in ((row, row_axes), (column, column_axes))
+    )
+    return rows, np.where((first <= columns) & (columns < after), columns, -1)
+'''
+
+_COMPRESSED = '''\
+def compressed(*bands):
+    """Return rows, starts of columns, and for each value its place, the last if it has none."""
+    rows, columns = (np.concatenate(parts).astype(int) for parts in zip(*bands))
+    found, inverse = np.unique((columns * NX + rows)[columns >= 0], return_inverse=True)
+    places = np.full(len(rows), len(found))
+    places[columns >= 0] = inverse
+    return found % NX, np.searchsorted(found, NX * np.arange(NX + 1)), places
+'''
+
 HELPERS = {
     "vectors": _VECTORS.rstrip(),
     "sat": _SAT.rstrip(),
@@ -76,4 +100,6 @@ HELPERS = {
     "total": _TOTAL.rstrip(),
     "solve": _SOLVE.rstrip(),
     "flush": _FLUSH.rstrip(),
+    "band": _BAND.rstrip(),
+    "compressed": _COMPRESSED.rstrip(),
 }

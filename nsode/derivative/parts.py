@@ -1,0 +1,35 @@
+"""Arguments of nonlinear functions under names of their own, so that slopes stay short.
+
+The slope of ``f(g(h(x)))`` reads ``g(h(x))`` and ``h(x)`` again; named once, they cost a word.
+Branches of an ``if`` and bodies of sums are left alone: a dead branch must not be computed,
+and a body has an index that no definition has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from nsode.expr import Call, Expr, If, Index, Name, Number, Sum, rebuild, walk
+
+_SMALL = 3  # nodes of an argument that is not worth a name
+_LINEAR = frozenset({"+", "neg"})
+
+
+def with_parts(expr: Expr, named: Callable[[Expr], Name]) -> Expr:
+    """Return ``expr`` with its larger arguments replaced by what ``named`` calls them."""
+    match expr:
+        case Call(function):
+            inner = rebuild(expr, lambda child: with_parts(child, named))
+            if function in _LINEAR:
+                return inner
+            return rebuild(inner, lambda child: child if _is_small(child) else named(child))
+        case Number() | Index() | Name() | If() | Sum():
+            return expr
+        case _:
+            raise NotImplementedError(f"no parts of {type(expr).__name__}")
+
+
+def _is_small(expr: Expr) -> bool:
+    if isinstance(expr, If | Sum):
+        return False
+    return sum(1 for _ in walk(expr)) <= _SMALL
