@@ -75,6 +75,10 @@ class IndexRange(NamedTuple):
         """Return how many integers there are; an empty range is empty."""
         return max(0, self.last - self.first + 1)
 
+    def __bool__(self) -> bool:
+        """Return True: an empty range is still a range, which None is not."""
+        return True
+
 
 @dataclass(frozen=True, slots=True)
 class Sum(Expr):
