@@ -189,7 +189,7 @@ class _Course:
     def assemble(self) -> DifferentialInclusion:
         """Put the pieces together, definitions in an order that computes."""
         names_of = self.elements.renamed
-        solved, rates = solve(self.rows.rows, self.declared.states)
+        solved, rates = solve(self.rows.rows, self.declared.states, self.declared.parameters)
         bindings: list[Definition] = [*self.definitions.bindings, *self.rows.bindings.values()]
         bindings.extend(solved)
         if names_of:
@@ -233,6 +233,8 @@ class _Course:
                     self.checks.extend(prove_factor(prover, item, inclusion.source))
         for item in inclusion.bindings:
             if isinstance(item, LinearSolve):
+                with self.report.collecting():
+                    hypotheses.check_matrix(item)
                 for expr in item.right:
                     with self.report.collecting():
                         hypotheses.check_linear(expr)

@@ -6,18 +6,27 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
-from nsode.expr import Call, Expr, If, Index, Name, Number, children, subtract
+from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, children, subtract
+from nsode.inclusion.sharing import Numbering
 from nsode.inclusion.signs import Goal, Prover
-from nsode.ode import Check, Parameter, SetValuedTerm
+from nsode.ode import Binding, Check, DifferentialInclusion, Parameter, SetValuedTerm
 from nsode.source import Source
 
 _RELATIONS: dict[str, Goal] = {">=": ">=", ">": ">", "<=": "<=", "<": "<"}
 
 
-def take_checks(prover: Prover, checks: Iterable[Check]) -> None:
-    """Let proofs use declared bounds and assumptions."""
+def prover_of(inclusion: DifferentialInclusion, checks: Iterable[Check]) -> Prover:
+    """Return a prover over the definitions of a model, its declared bounds and assumptions."""
+    prover = Prover(Numbering(), {p.name: p for p in inclusion.parameters})
+    for item in inclusion.bindings:
+        match item:
+            case Binding():
+                prover.numbering.add(item)
+            case SetValuedTerm(kind="dio"):
+                prover.nonnegative.update(item.multiplier)
     for check in checks:
         _take(prover, check.condition, check.kind == "bound")
+    return prover
 
 
 def _take(prover: Prover, condition: Expr, bound: bool) -> None:
@@ -52,15 +61,21 @@ def prove_factor(prover: Prover, term: SetValuedTerm, source: Source) -> list[Ch
     factor = term.factor
     if factor is None:
         return []
-    proof = prover.prove(factor, ">=")
+    proof = prover.prove(factor, ">=", *_axes(term))
     if proof is None:
         raise _unproved(prover, term, factor, source)
     watched = Call(">=", (factor, Number(0.0)), span=factor.span)
     reason = f"the factor of `{term.name}`"
     checks = [Check("factor", watched, term.range, reason, span=factor.span)]
     for name, goal in sorted(proof):
+        if goal == ">=" and (name, ">") in proof:
+            continue
         checks.append(_guard(prover.parameters[name], goal, reason, term))
     return checks
+
+
+def _axes(item: Binding | SetValuedTerm) -> tuple[IndexRange, ...]:
+    return () if item.range is None else (item.range,)
 
 
 def _guard(parameter: Parameter, goal: Goal, reason: str, term: SetValuedTerm) -> Check:
@@ -71,7 +86,7 @@ def _guard(parameter: Parameter, goal: Goal, reason: str, term: SetValuedTerm) -
 
 
 def _unproved(prover: Prover, term: SetValuedTerm, factor: Expr, source: Source) -> ModelError:
-    culprit = _culprit(prover, factor)
+    culprit = _culprit(prover, factor, _axes(term))
     shown = source.slice(factor.span) or "1"
     argument = source.slice(term.argument[0].span.to(term.argument[-1].span))
     labels = [Label(factor.span, "this factor may change sign")]
@@ -95,27 +110,38 @@ class _Culprit(NamedTuple):
 
     part: Expr
     wanted: Goal
+    over: tuple[IndexRange, ...]
 
 
-def _culprit(prover: Prover, expr: Expr, wanted: Goal = ">=") -> _Culprit:
+def _culprit(prover: Prover, expr: Expr, over: tuple[IndexRange, ...]) -> _Culprit:
+    found = _Culprit(expr, ">=", over)
+    while (inner := _inner(prover, found)) is not None:
+        found = inner
+    return found
+
+
+def _inner(prover: Prover, culprit: _Culprit) -> _Culprit | None:
+    """Return the part of a part that stands in the way, None where there is no smaller one."""
+    expr, wanted, over = culprit
     match expr:
-        case Call("+", args) | Call("*", args):
-            for arg in args:
-                if prover.prove(arg, wanted) is None:
-                    return _culprit(prover, arg, wanted)
-        case Call("/", (dividend, divisor)):
-            if prover.prove(dividend, wanted) is None:
-                return _culprit(prover, dividend, wanted)
-            return _culprit(prover, divisor, ">")
+        case Call("+" | "*", args):
+            parts = [(arg, wanted) for arg in args]
         case If(_, then, otherwise):
-            for arg in (then, otherwise):
-                if prover.prove(arg, wanted) is None:
-                    return _culprit(prover, arg, wanted)
+            parts = [(then, wanted), (otherwise, wanted)]
+        case Call("/", (dividend, divisor)):
+            parts = [(dividend, wanted), (divisor, ">")]
+        case Sum(inside, body):
+            return _Culprit(body, wanted, (*over, inside))
         case Name(id) if id in prover.numbering.bindings:
-            inner = prover.numbering.bindings[id].value
-            if children(inner):
-                return _culprit(prover, inner, wanted)
-    return _Culprit(expr, wanted)
+            binding = prover.numbering.bindings[id]
+            simple = not children(binding.value)
+            return None if simple else _Culprit(binding.value, wanted, _axes(binding))
+        case _:
+            return None
+    for part, goal in parts:
+        if prover.prove(part, goal, *over) is None:
+            return _Culprit(part, goal, over)
+    return None
 
 
 def _reason(prover: Prover, culprit: _Culprit) -> str:

@@ -1,4 +1,8 @@
-"""The hypotheses of Section 4.4: where a set-valued term may stand, and beside what."""
+"""The hypotheses of Section 4.4: where a set-valued term may stand, and beside what.
+
+Definitions are taken in order, so what is asked of a name is known when it is read:
+nothing recurses through names, and the cost stays linear.
+"""
 
 from __future__ import annotations
 
@@ -6,17 +10,18 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
+from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.expr import Call, Expr, If, Name, names, walk
 from nsode.ode import Binding, LinearSolve, SetValuedTerm
+from nsode.source import Span
 
 
 class Reads(NamedTuple):
-    """What a value depends on, through bindings."""
+    """What a value depends on, through bindings; for terms, the place of one of them."""
 
     state: bool = False
-    dio: bool = False
-    sgn: bool = False
+    dio: Span | None = None
+    sgn: Span | None = None
 
     def __or__(self, other: Reads) -> Reads:
         return Reads(self.state or other.state, self.dio or other.dio, self.sgn or other.sgn)
@@ -30,9 +35,8 @@ class Hypotheses:
     """Checks terms and rates against what is known of the names that they read."""
 
     reads: dict[str, Reads]
-    bindings: dict[str, Binding] = field(default_factory=dict)
     _jump: dict[str, Expr | None] = field(default_factory=dict)
-    _degree: dict[str, bool] = field(default_factory=dict)
+    _linear_in: dict[str, bool | ModelError] = field(default_factory=dict)
 
     def of(self, *exprs: Expr) -> Reads:
         """Return what expressions depend on."""
@@ -43,59 +47,54 @@ class Hypotheses:
         return found
 
     def add(self, item: Binding | LinearSolve | SetValuedTerm) -> None:
-        """Take in a definition whose names are all known."""
+        """Take in a definition whose names are all known.
+
+        Raises
+        ------
+        ModelError
+            NS202, NS204 or NS207 for a set-valued term that the method cannot replace.
+        """
         match item:
             case Binding(name, value):
-                self.bindings[name] = item
                 self.reads[name] = self.of(value)
+                self._jump[name] = self._find_jump(value)
+                self._linear_in[name] = self._try_linear(value)
             case LinearSolve(unknowns, matrix, right):
                 found = self.of(*right, *(entry for row in matrix for entry in row))
                 self.reads.update(dict.fromkeys(unknowns, found))
             case SetValuedTerm():
-                self.check_argument(item)
-                found = Reads(True, item.kind == "dio", item.kind == "sgn")
+                place = item.span
+                own = Reads(True, place) if item.kind == "dio" else Reads(True, None, place)
                 if item.factor is not None:
-                    self.check_factor(item, item.factor)
-                    found |= self.of(item.factor)
-                self.reads.update(dict.fromkeys(item.multiplier, found))
+                    own |= self.of(item.factor)
+                self.reads.update(dict.fromkeys(item.multiplier, own))
+                self._check_argument(item)
+                if item.factor is not None:
+                    self._check_factor(item, item.factor)
 
-    def check_argument(self, term: SetValuedTerm) -> None:
-        """Refuse an argument that is no continuous function of the states.
-
-        Raises
-        ------
-        ModelError
-            NS204 if it depends on a set-valued term, NS207 if it jumps.
-        """
+    def _check_argument(self, term: SetValuedTerm) -> None:
         for expr in term.argument:
             for name in names(expr):
                 found = self.reads.get(name.id, _NOTHING)
-                if found.dio or found.sgn:
-                    raise refuse(
+                origin = found.sgn or found.dio
+                if origin is not None:
+                    raise _refused(
                         "NS204",
                         f"the argument of `{term.kind}` depends on a set-valued term",
-                        name.span,
-                        "through this name",
-                        help="the gap or the sliding velocity is a function of the states alone",
+                        [Label(name.span, "through this name"), Label(origin, "the term")],
+                        "the gap or the sliding velocity is a function of the states alone",
                     )
             self._check_continuous(expr, "NS207", f"the argument of `{term.kind}` jumps", term)
 
-    def check_factor(self, term: SetValuedTerm, factor: Expr) -> None:
-        """Refuse a factor that depends on sgn or jumps with the states.
-
-        Raises
-        ------
-        ModelError
-            NS202.
-        """
+    def _check_factor(self, term: SetValuedTerm, factor: Expr) -> None:
         for name in names(factor):
-            if self.reads.get(name.id, _NOTHING).sgn:
-                raise refuse(
+            origin = self.reads.get(name.id, _NOTHING).sgn
+            if origin is not None:
+                raise _refused(
                     "NS202",
                     "the factor of `sgn` depends on another `sgn`",
-                    name.span,
-                    "set valued itself",
-                    help="the method allows `dio` in a factor, and nothing else that jumps",
+                    [Label(name.span, "set valued itself"), Label(origin, "by this `sgn`")],
+                    "the method allows `dio` in a factor, and nothing else that jumps",
                 )
         self._check_continuous(factor, "NS202", "the factor of `sgn` jumps", term)
 
@@ -103,19 +102,12 @@ class Hypotheses:
         jump = self._find_jump(expr)
         if jump is None:
             return
-        labels = [Label(jump.span, "it jumps here")]
-        if not (term.span.start <= jump.span.start < term.span.end):
-            labels.append(Label(term.span, "and is used here"))
-        raise ModelError(
-            [
-                Diagnostic(
-                    code,
-                    message,
-                    tuple(labels),
-                    notes=("the approximation needs continuous functions of the states",),
-                    help="use `max`, `min` or `abs`, or an `if` on `t` alone",
-                )
-            ]
+        raise _refused(
+            code,
+            message,
+            _places(jump.span, "it jumps here", term.span),
+            "use `max`, `min` or `abs`, or an `if` on `t` alone",
+            "the approximation needs continuous functions of the states",
         )
 
     def _find_jump(self, expr: Expr) -> Expr | None:
@@ -125,11 +117,8 @@ class Hypotheses:
                     return node
                 case If(condition) if self.of(condition).state:
                     return node
-                case Name(id) if id in self.bindings:
-                    if id not in self._jump:
-                        self._jump[id] = self._find_jump(self.bindings[id].value)
-                    if self._jump[id] is not None:
-                        return self._jump[id]
+                case Name(id) if self._jump.get(id) is not None:
+                    return self._jump[id]
         return None
 
     def check_linear(self, expr: Expr) -> None:
@@ -141,6 +130,26 @@ class Hypotheses:
             NS203.
         """
         self._linear(expr)
+
+    def check_matrix(self, solve: LinearSolve) -> None:
+        """Refuse a mass matrix that depends on sgn.
+
+        Raises
+        ------
+        ModelError
+            NS203.
+        """
+        for entry in (entry for row in solve.matrix for entry in row):
+            origin = self.of(entry).sgn
+            if origin is not None:
+                raise _nonlinear(entry, "a set-valued term multiplies a derivative", origin)
+
+    def _try_linear(self, expr: Expr) -> bool | ModelError:
+        """Keep a refusal until a rate reads the name: an output may be nonlinear in sgn."""
+        try:
+            return self._linear(expr)
+        except ModelError as error:
+            return error
 
     def _linear(self, expr: Expr) -> bool:
         """Return whether sgn stands in ``expr``, linearly."""
@@ -154,30 +163,32 @@ class Hypotheses:
             case Call("*", (left, right)):
                 found = [self._linear(left), self._linear(right)]
                 if all(found):
-                    raise _nonlinear(expr, "a product of two set-valued terms")
+                    raise self._refuse(expr, "a product of two set-valued terms")
                 return any(found)
             case Call("/", (left, right)):
                 if self._linear(right):
-                    raise _nonlinear(right, "a set-valued term in a denominator")
+                    raise self._refuse(right, "a set-valued term in a denominator")
                 return self._linear(left)
             case If(condition, then, otherwise):
                 if self._linear(condition):
-                    raise _nonlinear(condition, "a set of values cannot be compared")
+                    raise self._refuse(condition, "a set of values cannot be compared")
                 return any([self._linear(then), self._linear(otherwise)])
             case Call(function, args):
                 if any([self._linear(arg) for arg in args]):
-                    raise _nonlinear(expr, f"`{function}` of a set-valued term")
+                    raise self._refuse(expr, f"`{function}` of a set-valued term")
                 return False
-        return self.of(expr).sgn
+        return self.of(expr).sgn is not None
 
     def _linear_name(self, id: str) -> bool:
-        if not self.reads.get(id, _NOTHING).sgn:
-            return False
-        if id not in self._degree:
-            self._degree[id] = True
-            if id in self.bindings:
-                self._degree[id] = self._linear(self.bindings[id].value)
-        return self._degree[id]
+        found = self._linear_in.get(id, self.reads.get(id, _NOTHING).sgn is not None)
+        if isinstance(found, ModelError):
+            raise found
+        return found
+
+    def _refuse(self, expr: Expr, label: str) -> ModelError:
+        origin = self.of(expr).sgn
+        assert origin is not None
+        return _nonlinear(expr, label, origin)
 
 
 def base_reads(states: Iterable[str]) -> dict[str, Reads]:
@@ -185,11 +196,19 @@ def base_reads(states: Iterable[str]) -> dict[str, Reads]:
     return {name: Reads(state=True) for name in states}
 
 
-def _nonlinear(expr: Expr, label: str) -> ModelError:
-    return refuse(
-        "NS203",
-        "`sgn` must appear linearly",
-        expr.span,
-        label,
-        help="a set-valued term may be added and multiplied by single-valued factors only",
+def _nonlinear(expr: Expr, label: str, origin: Span) -> ModelError:
+    way_out = "a set-valued term may be added and multiplied by single-valued factors only"
+    places = _places(expr.span, label, origin)
+    return _refused(
+        "NS203", "`sgn` must appear linearly", _places(expr.span, label, origin), way_out
     )
+
+
+def _places(span: Span, text: str, other: Span) -> list[Label]:
+    """Return one place, and another unless the two overlap."""
+    apart = span.end <= other.start or other.end <= span.start
+    return [Label(span, text), *([Label(other, "and the term is here")] if apart else [])]
+
+
+def _refused(code: str, message: str, labels: list[Label], way_out: str, *notes: str) -> ModelError:
+    return ModelError([Diagnostic(code, message, tuple(labels), notes, way_out)])

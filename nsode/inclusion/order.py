@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import TypeVar
 
 Key = TypeVar("Key", bound=Hashable)
@@ -46,3 +46,23 @@ def loop(keys: Sequence[Key], reads: Mapping[Key, Iterable[Key]]) -> list[Key]:
         path[key] = len(path)
         key = next(other for other in reads[key] if other in left)
     return list(path)[path[key] :]
+
+
+def deepest_first(
+    wanted: Iterable[Key], reads: Callable[[Key], Iterable[Key]], known: Container[Key]
+) -> Iterator[Key]:
+    """Yield what is wanted and all that it rests on, each behind what it reads.
+
+    The caller makes each key known before it asks for the next. Nothing recurses, so
+    the depth of the definitions does not matter; there must be no loop.
+    """
+    waiting = list(wanted)
+    while waiting:
+        key = waiting[-1]
+        below = [] if key in known else [other for other in reads(key) if other not in known]
+        if below:
+            waiting.extend(below)
+            continue
+        waiting.pop()
+        if key not in known:
+            yield key

@@ -7,11 +7,13 @@ stays linear however deep the bindings are.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from math import isfinite
 from typing import NamedTuple
 
-from nsode.expr import Call, Expr, If, Index, Name, Number, Sum
+from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, children
+from nsode.inclusion.order import deepest_first
 from nsode.ode import Binding
 
 
@@ -24,7 +26,9 @@ class Scaled(NamedTuple):
 
 _Place = tuple[str | None, int]
 _Indices = Mapping[str, _Place]
-_ONE = 0
+_Key = tuple[str, _Place | None]
+#: The number of the constant one.
+ONE = 0
 
 
 @dataclass(slots=True)
@@ -33,7 +37,7 @@ class Numbering:
 
     bindings: dict[str, Binding] = field(default_factory=dict)
     _numbers: dict[object, int] = field(default_factory=dict)
-    _known: dict[object, Scaled] = field(default_factory=dict)
+    _known: dict[_Key, Scaled] = field(default_factory=dict)
 
     def add(self, binding: Binding) -> None:
         """Let later expressions look through a binding."""
@@ -48,83 +52,122 @@ class Numbering:
         indices: _Indices = {} if variable is None else {variable: ("#", 0)}
         found = [self.number(component, indices) for component in components]
         scale = next((one.scale for one in found if one.scale), 1.0)
-        return Scaled(scale, self._of(("vector", *((s / scale, id) for s, id in found))))
+        return Scaled(scale, self._of(("vector", *_relative(found, scale))))
 
     def number(self, expr: Expr, indices: _Indices) -> Scaled:
         """Return the number of a scalar expression."""
+        self._prepare(expr, indices)
+        return self._number(expr, indices)
+
+    def _prepare(self, expr: Expr, indices: _Indices) -> None:
+        """Give numbers to what ``expr`` rests on, so that no recursion follows names."""
+        for key in deepest_first(self._bound(expr, indices), self._below, self._known):
+            binding, inside = self._inside(key)
+            self._known[key] = self._number(binding.value, inside)
+
+    def _below(self, key: _Key) -> Iterator[_Key]:
+        binding, inside = self._inside(key)
+        return self._bound(binding.value, inside)
+
+    def _bound(self, expr: Expr, indices: _Indices) -> Iterator[_Key]:
+        """Yield the bindings that an expression reads, with their places."""
+        stack = [(expr, indices)]
+        while stack:
+            node, here = stack.pop()
+            if isinstance(node, Name) and node.id in self.bindings:
+                yield _key(node, here)
+            elif isinstance(node, Sum):
+                stack.append((node.body, _within(node.range, here)))
+            else:
+                stack.extend((child, here) for child in children(node))
+
+    def _inside(self, key: _Key) -> tuple[Binding, _Indices]:
+        """Return a binding and what its index stands for."""
+        name, at = key
+        binding = self.bindings[name]
+        if binding.range is None or at is None:
+            return binding, {}
+        return binding, {binding.range.variable: at}
+
+    def _number(self, expr: Expr, indices: _Indices) -> Scaled:
         match expr:
             case Number(value):
-                return Scaled(value, _ONE)
+                return Scaled(value, ONE)
             case Index():
-                return Scaled(1.0, self._of(("index", self._place(expr, indices))))
+                return Scaled(1.0, self._of(("index", _place(expr, indices))))
             case Name():
-                return self._name(expr, indices)
+                key = _key(expr, indices)
+                return self._known[key] if key in self._known else self._plain(("name", key))
             case Call("neg", (inner,)):
-                scale, id = self.number(inner, indices)
+                scale, id = self._number(inner, indices)
                 return Scaled(-scale, id)
             case Call("+", terms):
-                return self._sum([self.number(term, indices) for term in terms])
+                return self._sum([self._number(term, indices) for term in terms])
             case Call("*", (left, right)):
-                return self._product(self.number(left, indices), self.number(right, indices))
+                return self._product(self._number(left, indices), self._number(right, indices))
             case Call("/", (left, right)):
-                return self._quotient(self.number(left, indices), self.number(right, indices))
+                return self._quotient(self._number(left, indices), self._number(right, indices))
             case Call(function, args):
-                numbers = tuple(self.number(arg, indices) for arg in args)
-                return Scaled(1.0, self._of((function, numbers)))
-            case If(condition, then, otherwise):
-                parts = (condition, then, otherwise)
-                numbers = tuple(self.number(part, indices) for part in parts)
-                return Scaled(1.0, self._of(("if", numbers)))
+                return self._plain((function, *(self._number(arg, indices) for arg in args)))
+            case If():
+                return self._plain(("if", *(self._number(e, indices) for e in children(expr))))
             case Sum(over, body):
-                variable, first, last = over
-                inside = {**indices, variable: ("sum", 0)}
-                number = self.number(body, inside)
-                return Scaled(1.0, self._of(("sum", first, last, number)))
+                number = self._number(body, _within(over, indices))
+                return self._plain(("sum", over.first, over.last, number))
         raise NotImplementedError(f"no number for {type(expr).__name__}")
 
     def _of(self, structure: object) -> int:
         return self._numbers.setdefault(structure, len(self._numbers) + 1)
 
-    def _place(self, index: Index, indices: _Indices) -> _Place:
-        if index.variable is None:
-            return None, index.offset
-        variable, offset = indices.get(index.variable, (index.variable, 0))
-        return variable, offset + index.offset
-
-    def _name(self, expr: Name, indices: _Indices) -> Scaled:
-        at = None if expr.at is None else self._place(expr.at, indices)
-        key = (expr.id, at)
-        if key in self._known:
-            return self._known[key]
-        binding = self.bindings.get(expr.id)
-        if binding is None:
-            found = Scaled(1.0, self._of(("name", key)))
-        elif binding.range is None or at is None:
-            found = self.number(binding.value, {})
-        else:
-            found = self.number(binding.value, {binding.range.variable: at})
-        self._known[key] = found
-        return found
+    def _plain(self, structure: object) -> Scaled:
+        return Scaled(1.0, self._of(structure))
 
     def _sum(self, terms: list[Scaled]) -> Scaled:
-        kept = sorted((term for term in terms if term.scale), key=lambda term: term.id)
+        together: dict[int, float] = {}
+        for scale, id in terms:
+            together[id] = together.get(id, 0.0) + scale
+        kept = [Scaled(scale, id) for id, scale in sorted(together.items()) if scale]
         if len(kept) == 1:
             return kept[0]
         if not kept:
-            return Scaled(0.0, _ONE)
+            return Scaled(0.0, ONE)
         scale = kept[0].scale
-        return Scaled(scale, self._of(("+", *((s / scale, id) for s, id in kept))))
+        return Scaled(scale, self._of(("+", *_relative(kept, scale))))
 
     def _product(self, left: Scaled, right: Scaled) -> Scaled:
         scale = left.scale * right.scale
-        factors = sorted(one.id for one in (left, right) if one.id != _ONE)
+        if not isfinite(scale):
+            return self._plain(("*", left, right))
+        factors = sorted(one.id for one in (left, right) if one.id != ONE)
         if len(factors) < 2:
-            return Scaled(scale, factors[0] if factors else _ONE)
+            return Scaled(scale, factors[0] if factors else ONE)
         return Scaled(scale, self._of(("*", *factors)))
 
     def _quotient(self, left: Scaled, right: Scaled) -> Scaled:
-        if right.scale == 0:
-            return Scaled(1.0, self._of(("/", left, right)))
-        if right.id == _ONE:
+        if right.scale == 0 or not isfinite(left.scale / right.scale):
+            return self._plain(("/", left, right))
+        if right.id == ONE:
             return Scaled(left.scale / right.scale, left.id)
         return Scaled(left.scale / right.scale, self._of(("/", left.id, right.id)))
+
+
+def _relative(terms: Iterable[Scaled], scale: float) -> Iterator[Scaled]:
+    """Yield terms over a common factor, rounded so that 0.3/0.1 is 3."""
+    return (Scaled(float(f"{term.scale / scale:.14g}"), term.id) for term in terms)
+
+
+def _within(over: IndexRange, indices: _Indices) -> _Indices:
+    """Return the indices inside a sum; its own is told apart from those outside."""
+    taken = max((len(name) for name, _ in indices.values() if name), default=0)
+    return {**indices, over.variable: ("#" * (taken + 1), 0)}
+
+
+def _key(name: Name, indices: _Indices) -> _Key:
+    return name.id, None if name.at is None else _place(name.at, indices)
+
+
+def _place(index: Index, indices: _Indices) -> _Place:
+    if index.variable is None:
+        return None, index.offset
+    variable, offset = indices.get(index.variable, (index.variable, 0))
+    return variable, offset + index.offset

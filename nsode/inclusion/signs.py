@@ -8,13 +8,15 @@ just these can be guarded.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Literal
 
-from nsode.expr import Call, Expr, If, Name, Number, Sum
-from nsode.inclusion.sharing import Numbering
-from nsode.ode import Parameter
+from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, names
+from nsode.inclusion.order import deepest_first
+from nsode.inclusion.sharing import ONE, Numbering
+from nsode.ode import Binding, Parameter
 
 Goal = Literal[">=", ">", "<=", "<"]
 Guard = tuple[str, Goal]
@@ -30,7 +32,7 @@ _IMPLIES: dict[Goal, tuple[Goal, ...]] = {
     "<": ("<",),
 }
 _POSITIVE = {"exp", "cosh"}
-_NONNEGATIVE = {"abs", "norm", "sqrt"}
+_NONNEGATIVE = {"abs", "norm", "sqrt", "acos"}
 _ODD = {"sinh", "tanh", "atan", "asin"}
 
 
@@ -47,16 +49,45 @@ class Prover:
     facts: dict[int, set[Goal]] = field(default_factory=dict)
     bounds: dict[str, set[Goal]] = field(default_factory=dict)
     nonnegative: set[str] = field(default_factory=set)
-    _known: dict[tuple[str, Goal], Proof | None] = field(default_factory=dict)
+    _known: dict[str, dict[Goal, Proof | None]] = field(default_factory=dict)
     _seen: dict[tuple[int, Goal], tuple[Expr, Proof | None]] = field(default_factory=dict)
+    _indices: dict[str, IndexRange] = field(default_factory=dict)
 
     def assume(self, expr: Expr, goal: Goal) -> None:
         """Take ``expr goal 0`` for granted; a check guards it elsewhere."""
         scale, id = self.numbering.number(expr, {})
-        self.facts.setdefault(id, set()).add(goal if scale > 0 else _OPPOSITE[goal])
+        if scale and id != ONE:
+            self.facts.setdefault(id, set()).add(goal if scale > 0 else _OPPOSITE[goal])
 
-    def prove(self, expr: Expr, goal: Goal) -> Proof | None:
-        """Return the guards under which ``expr goal 0`` holds, None without a proof."""
+    def prove(self, expr: Expr, goal: Goal, *over: IndexRange) -> Proof | None:
+        """Return the guards under which ``expr goal 0`` holds, None without a proof.
+
+        ``over`` are the index ranges under which the expression stands.
+        """
+        bindings = self.numbering.bindings
+        for name in deepest_first(self._bound(expr), self._below, self._known):
+            binding = bindings[name]
+            with self._within(*_axes(binding)):
+                self._known[name] = {g: self._prove(binding.value, g) for g in _OPPOSITE}
+        with self._within(*over):
+            return self._prove(expr, goal)
+
+    def _bound(self, expr: Expr) -> Iterator[str]:
+        return (name.id for name in names(expr) if name.id in self.numbering.bindings)
+
+    def _below(self, name: str) -> Iterator[str]:
+        return self._bound(self.numbering.bindings[name].value)
+
+    @contextmanager
+    def _within(self, *over: IndexRange) -> Iterator[None]:
+        outside = self._indices
+        self._indices = {**outside, **{axis.variable: axis for axis in over}}
+        try:
+            yield
+        finally:
+            self._indices = outside
+
+    def _prove(self, expr: Expr, goal: Goal) -> Proof | None:
         key = (id(expr), goal)
         if key not in self._seen:
             proof = self._assumed(expr, goal)
@@ -79,12 +110,15 @@ class Prover:
                 return _NOTHING if _holds(value, goal) else None
             case Name():
                 return self._name(expr, goal)
-            case Sum(body=body):
-                return self.prove(body, _WEAK[goal]) if goal in {">=", "<="} else None
+            case Index():
+                return _NOTHING if all(_holds(end, goal) for end in self._ends(expr)) else None
+            case Sum(over, body) if goal in {">=", "<="}:
+                with self._within(over):
+                    return self._prove(body, goal)
             case If(_, then, otherwise):
                 return self._all((then, goal), (otherwise, goal))
             case Call("neg", (inner,)):
-                return self.prove(inner, _OPPOSITE[goal])
+                return self._prove(inner, _OPPOSITE[goal])
             case Call("+", terms):
                 return self._sum(terms, goal)
             case Call("*" | "/", (left, right)):
@@ -106,18 +140,18 @@ class Prover:
         if parameter is not None:
             held = all(_holds(value, goal) for value in parameter.values)
             return frozenset({(expr.id, goal)}) if held and parameter.values else None
-        binding = self.numbering.bindings.get(expr.id)
-        if binding is None:
-            return None
-        key = (expr.id, goal)
-        if key not in self._known:
-            self._known[key] = self.prove(binding.value, goal)
-        return self._known[key]
+        return self._known[expr.id][goal] if expr.id in self._known else None
+
+    def _ends(self, index: Index) -> tuple[int, ...]:
+        if index.variable is None:
+            return (index.offset,)
+        over = self._indices[index.variable]
+        return (over.first + index.offset, over.last + index.offset) if len(over) else ()
 
     def _all(self, *goals: tuple[Expr, Goal]) -> Proof | None:
         guards = _NOTHING
         for expr, goal in goals:
-            proof = self.prove(expr, goal)
+            proof = self._prove(expr, goal)
             if proof is None:
                 return None
             guards |= proof
@@ -156,7 +190,7 @@ class Prover:
     def _power(self, base: Expr, exponent: Expr, goal: Goal) -> Proof | None:
         if goal == ">=" and isinstance(exponent, Number) and exponent.value % 2 == 0:
             return _NOTHING
-        return self.prove(base, goal) if goal in {">", ">="} else None
+        return self._prove(base, goal) if goal in {">", ">="} else None
 
     def _extreme(self, function: str, left: Expr, right: Expr, goal: Goal) -> Proof | None:
         if (function == "max") == (goal in {">", ">="}):
@@ -165,15 +199,22 @@ class Prover:
 
     def _function(self, function: str, args: tuple[Expr, ...], goal: Goal) -> Proof | None:
         if goal in {"<", "<="}:
-            return self.prove(args[0], goal) if function in _ODD else None
+            return self._prove(args[0], goal) if function in _ODD else None
         if function in _POSITIVE:
             return _NOTHING
         if function in _NONNEGATIVE:
-            if goal == ">=":
-                return _NOTHING
-            return self._any(*(((arg, g),) for arg in args for g in _STRICT))
+            return _NOTHING if goal == ">=" else self._nonzero(function, args)
         if function in _ODD:
-            return self.prove(args[0], goal)
+            return self._prove(args[0], goal)
+        return None
+
+    def _nonzero(self, function: str, args: tuple[Expr, ...]) -> Proof | None:
+        """Prove that a function that is never negative is not zero either."""
+        match function:
+            case "sqrt":
+                return self._prove(args[0], ">")
+            case "abs" | "norm":
+                return self._any(*(((arg, goal),) for arg in args for goal in _STRICT))
         return None
 
 
@@ -189,3 +230,7 @@ def _holds(value: float, goal: Goal) -> bool:
         case "<=":
             return value <= 0
     return value < 0
+
+
+def _axes(binding: Binding) -> tuple[IndexRange, ...]:
+    return () if binding.range is None else (binding.range,)
