@@ -63,7 +63,7 @@ def load(path: Path) -> Trajectory:
         NS601 if it is something else.
     """
     try:
-        with np.load(path, allow_pickle=False) as held:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as held:
             arrays = {name: held[name] for name in held.files}
         meta = json.loads(str(arrays["meta"][()]))
         about = meta.pop("trajectory")

@@ -1,0 +1,272 @@
+"""Trajectories: columns by name, files, tables, figures, and the command."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import nsode
+from nsode.cli import run as command
+from nsode.diagnostics import ModelError
+from nsode.simulate import Trajectory
+from support import listing
+from support.models import MODELS
+
+DECAY = "model m\nparameter k = 1 {1/s}\nstate p = 1 {m}\nder(p) = -k*p\nsimulate 1 step 0.1\n"
+
+
+@pytest.fixture(scope="module")
+def sphere():
+    return nsode.load(MODELS / "rolling_sphere.di").simulate(1.0, every=10)
+
+
+@pytest.fixture
+def model(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("m.di").write_text(DECAY)
+    return "m.di"
+
+
+# columns
+
+
+def test_a_column_is_found_by_its_name_and_a_vector_by_its_stem(sphere):
+    assert np.array_equal(sphere["p.z"], sphere.x[:, sphere.x_names.index("p.z")])
+    assert sphere["p"].shape == (len(sphere), 3)
+    assert sphere["q"].shape == (len(sphere), 4)
+    assert np.array_equal(sphere["F"], np.column_stack([sphere["F.x"], sphere["F.y"]]))
+    assert np.array_equal(sphere["F.a"], np.column_stack([sphere["F.a.x"], sphere["F.a.y"]]))
+    assert np.array_equal(sphere["N.psi"], sphere["p.z"] - 0.5)
+    assert sphere["t"] is sphere.t
+
+
+def test_forces_and_units_are_known(sphere):
+    assert sphere.forces == ("N", "F.x", "F.y")
+    assert sphere.unit("v.x") == "m/s"
+    assert sphere.unit("t") == "s"
+
+
+def test_a_misspelt_name_draws_a_suggestion(sphere):
+    with pytest.raises(KeyError, match=r"did you mean `p.z`"):
+        sphere["p.zz"]
+    with pytest.raises(KeyError, match="did you mean `N`"):
+        sphere.mode("NN")
+
+
+# files
+
+
+def test_npz_holds_all_of_a_trajectory_without_pickle(sphere, tmp_path):
+    path = sphere.save(tmp_path / "run.npz")
+    with np.load(path, allow_pickle=False) as held:
+        assert {"t", "x", "y", "x_names", "y_names", "meta"} <= set(held.files)
+        assert held["x_names"].tolist() == list(sphere.x_names)
+        meta = json.loads(str(held["meta"]))
+    assert meta["model"]["text"] == (MODELS / "rolling_sphere.di").read_text()
+    assert meta["parameters"]["N.K"] == 1e5
+    back = Trajectory.load(path)
+    for array in ("t", "x", "y", "psi", "modes"):
+        assert np.array_equal(getattr(back, array), getattr(sphere, array))
+    for plain in ("name", "x_names", "y_names", "mode_names", "forces", "units", "meta"):
+        assert getattr(back, plain) == getattr(sphere, plain)
+
+
+def test_the_same_run_makes_the_same_file(tmp_path):
+    for name in ("a.npz", "b.npz"):
+        nsode.loads(DECAY).simulate().save(tmp_path / name)
+    assert (tmp_path / "a.npz").read_bytes() == (tmp_path / "b.npz").read_bytes()
+
+
+def test_csv_gives_every_number_back_exactly(sphere, tmp_path):
+    path = sphere.save(tmp_path / "run.csv")
+    with path.open() as file:
+        head, *rows = csv.reader(file)
+    assert head == ["t", *sphere.x_names, *sphere.y_names]
+    expected = np.column_stack([sphere.t, sphere.x, sphere.y])
+    assert np.array_equal(np.array(rows, dtype=float), expected)
+
+
+def test_a_file_that_cannot_be_written_leaves_the_old_one(sphere, tmp_path, monkeypatch):
+    path = tmp_path / "run.npz"
+    path.write_text("old")
+
+    def full(*_args, **_kwargs):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(np, "savez", full)
+    with pytest.raises(OSError, match="No space"):
+        sphere.save(path)
+    assert path.read_text() == "old"
+    assert listing(tmp_path) == ["run.npz"]
+
+
+@pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"t,x\n0,1\n"])
+def test_something_else_is_not_taken_for_a_trajectory(tmp_path, content):
+    path = tmp_path / "run.npz"
+    path.write_bytes(content)
+    with pytest.raises(ModelError, match="no trajectory"):
+        Trajectory.load(path)
+
+
+def test_pickled_arrays_are_refused(tmp_path):
+    path = tmp_path / "run.npz"
+    np.savez(path, t=np.array([{}], dtype=object), meta=np.array("{}"))
+    with pytest.raises(ModelError, match="no trajectory"):
+        Trajectory.load(path)
+
+
+# tables and figures
+
+
+def test_pandas_gets_states_and_outputs_over_time(sphere):
+    pytest.importorskip("pandas")
+    frame = sphere.to_pandas()
+    assert list(frame.columns) == [*sphere.x_names, *sphere.y_names]
+    assert np.array_equal(frame["v.x"].to_numpy(), sphere["v.x"])
+    assert frame.index.name == "t"
+
+
+def test_xarray_gets_units_too(sphere):
+    pytest.importorskip("xarray")
+    found = sphere.to_xarray()
+    assert found["v.x"].attrs["units"] == "m/s"
+
+
+@pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
+def test_a_figure_shows_every_vector_and_the_modes(sphere, tmp_path, ending):
+    pytest.importorskip("matplotlib")
+    file = tmp_path / f"run.{ending}"
+    figure = sphere.plot(file=file)
+    labels = [axis.get_ylabel() for axis in figure.axes]
+    assert labels[:2] == ["p [m]", "v [m/s]"]
+    assert [text.get_text() for text in figure.axes[-1].get_yticklabels()] == ["F", "N"]
+    assert file.stat().st_size > 5_000
+
+
+def test_a_figure_of_chosen_names(sphere):
+    pytest.importorskip("matplotlib")
+    figure = sphere.plot("p.z", "F", "N.psi")
+    assert [axis.get_ylabel() for axis in figure.axes[:3]] == ["p.z [m]", "F [N]", "N.psi"]
+    assert len(figure.axes[1].lines) == 2
+
+
+def test_a_trajectory_shows_itself_as_text_and_html(sphere):
+    assert "rolling_sphere: 1 s in 1,000 steps of 1 ms by rk4, 101 rows" in str(sphere)
+    assert "<table>" in sphere._repr_html_()
+    assert "v.x" in sphere._repr_html_()
+
+
+# the command
+
+
+def test_the_command_runs_and_writes(model, capfd):
+    assert command(["simulate", model, "-o", "run.csv", "--plot"]) == 0
+    assert listing(Path()) == ["m.di", "m.png", "run.csv"]
+    out = capfd.readouterr()
+    assert "m: 1 s in 10 steps of 100 ms by rk4, 11 rows" in out.out
+    assert out.err == ""
+
+
+def test_the_command_takes_settings_parameters_and_inputs(model, capfd):
+    Path("m.di").write_text(
+        "model m\nparameter k = 1\ninput f\nstate p = 0\nder(p) = f - k*p\nsimulate 1 step 0.1\n"
+    )
+    Path("data.csv").write_text("t,f\n0,1\n1,1\n")
+    arguments = ["--for", "0.4", "--step", "0.2", "--method", "euler", "-p", "k=0.5"]
+    assert command(["simulate", model, *arguments, "-u", "f=data.csv", "-o", "a.npz"]) == 0
+    assert Trajectory.load("a.npz")["p"] == pytest.approx([0, 0.2, 0.2 + 0.2 * 0.9])
+    assert command(["simulate", model, *arguments, "-u", "f=2", "-o", "b.npz"]) == 0
+    assert Trajectory.load("b.npz")["p"][1] == pytest.approx(0.4)
+    capfd.readouterr()
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("t,g,h\n0,1,2\n", "has no column `f`"),
+        ("0,1,2\n", "has no column `f`"),
+        ("t,f\n0,one\n", "no table of numbers"),
+        ("t,f\n0,1\n1\n", "no table of numbers"),
+    ],
+)
+def test_a_table_that_does_not_hold_the_input_is_refused(model, text, message, capfd):
+    Path("m.di").write_text("model m\ninput f\nstate p = 0\nder(p) = f\nsimulate 1 step 0.1\n")
+    Path("data.csv").write_text(text)
+    assert command(["simulate", model, "-u", "f=data.csv"]) == 1
+    assert message in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("flags", "status", "message"),
+    [
+        (["--step", "0"], 1, "NS501"),
+        (["--step", "nan"], 1, "NS501"),
+        (["--for", "-1"], 1, "NS501"),
+        (["--for", "1e9", "--step", "1e-6"], 1, "3.2 years"),
+        (["--for", "1e5", "--step", "1e-5", "--every", "1"], 1, "160 GB"),
+        (["-o", "no/such/x.csv"], 2, "there is no folder `no/such`"),
+        (["-o", "-rf"], 2, "must end in `.npz` or `.csv`"),
+        (["-o", "folder.csv"], 2, "it is a folder"),
+        (["--plot", "m.di"], 2, "must end in one of"),
+        (["-p", "k"], 2, "NAME=VALUE"),
+        (["-p", "k=one"], 2, "must be a number"),
+        (["-p", "kk=1"], 1, "did you mean `k`?"),
+        (["-u", "f=none.csv"], 2, "cannot read `none.csv`"),
+    ],
+)
+def test_the_command_refuses_before_the_run(model, flags, status, message, capfd):
+    Path("folder.csv").mkdir()
+    assert command(["simulate", model, *flags]) == status
+    assert message in capfd.readouterr().err
+    assert listing(Path()) == ["folder.csv", "m.di"]
+    assert Path("m.di").read_text() == DECAY
+
+
+def test_rows_before_a_failure_are_written(model, capfd):
+    Path("m.di").write_text("model m\nstate p = 1\nder(p) = p^2\n")
+    flags = ["--for", "2", "--step", "1e-3", "-o", "run.csv"]
+    assert command(["simulate", model, *flags]) == 1
+    assert "NS504" in capfd.readouterr().err
+    rows = Path("run.csv").read_text().splitlines()
+    assert 1000 < len(rows) < 1010
+
+
+def test_ctrl_c_writes_what_was_computed_and_the_bar_shows_on_terminals_only(model):
+    program = "import sys; from nsode.cli import run; sys.exit(run(sys.argv[1:]))"
+    flags = ["--for", "1e6", "--step", "1e-3", "--every", "100000", "-o", "run.npz"]
+    terminal, other_end = pty.openpty()
+    child = subprocess.Popen(
+        [sys.executable, "-c", program, "simulate", model, *flags],
+        stdout=subprocess.DEVNULL, stderr=other_end,
+    )  # fmt: skip
+    os.close(other_end)
+    shown = b""
+    while b" s left" not in shown:
+        shown += os.read(terminal, 1000)
+    child.send_signal(signal.SIGINT)
+    begin = time.monotonic()
+    assert child.wait(timeout=20) == 130
+    assert time.monotonic() - begin < 5
+    os.close(terminal)
+    assert Trajectory.load("run.npz").meta["run"]["interrupted"]
+
+
+def test_the_cache_is_shown_and_cleared(model, tmp_path, monkeypatch, capfd):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    assert command(["simulate", model]) == 0
+    assert command(["cache"]) == 0
+    assert "1 compiled models" in capfd.readouterr().out
+    assert command(["cache", "clear"]) == 0
+    assert "1 removed" in capfd.readouterr().out
+    assert command(["cache"]) == 0
+    assert "0 compiled models" in capfd.readouterr().out
