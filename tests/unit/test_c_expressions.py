@@ -225,13 +225,13 @@ def random_tree(rng, depth):
 @pytest.mark.parametrize("seed", range(4))
 def test_compiled_expressions_are_the_trees_bit_for_bit(seed, compile_c):
     rng = random.Random(seed)
-    many = [random_tree(rng, 5) for _ in range(200)]
+    many = [random_tree(rng, 5) for _ in range(120)]
     scene = evaluating(
         {f"y{k}": tree for k, tree in enumerate(many)},
         parameters=[Parameter(k, (0.0,)) for k in "xyz"],
     )
     native = compile_c(scene)
-    for _ in range(50):
+    for _ in range(30):
         point = [rng.choice([*VALUES, rng.gauss(0, 1), rng.gauss(0, 1e5)]) for _ in "xyz"]
         found = native.out(0.0, [], p=point)
         with np.errstate(all="ignore"):
