@@ -1,0 +1,1 @@
+"""Kelvin-Voigt cut off at zero (16): never pulls, jumps at the touch."""

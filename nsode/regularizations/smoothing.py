@@ -1,0 +1,1 @@
+"""Smoothing (50): sgn(w) becomes sat(eps, w)/eps; no state, never sticks."""
