@@ -81,7 +81,7 @@ class Hypotheses:
                     raise _refused(
                         "NS204",
                         f"the argument of `{term.kind}` depends on a set-valued term",
-                        [Label(name.span, "through this name"), Label(origin, "the term")],
+                        _places(name.span, "through this name", origin, "the term"),
                         "the gap or the sliding velocity is a function of the states alone",
                     )
             self._check_continuous(expr, "NS207", f"the argument of `{term.kind}` jumps", term)
@@ -93,7 +93,7 @@ class Hypotheses:
                 raise _refused(
                     "NS202",
                     "the factor of `sgn` depends on another `sgn`",
-                    [Label(name.span, "set valued itself"), Label(origin, "by this `sgn`")],
+                    _places(name.span, "set valued itself", origin, "by this `sgn`"),
                     "the method allows `dio` in a factor, and nothing else that jumps",
                 )
         self._check_continuous(factor, "NS202", "the factor of `sgn` jumps", term)
@@ -105,7 +105,7 @@ class Hypotheses:
         raise _refused(
             code,
             message,
-            _places(jump.span, "it jumps here", term.span),
+            _places(jump.span, "it jumps here", term.span, "in this term"),
             "use `max`, `min` or `abs`, or an `if` on `t` alone",
             "the approximation needs continuous functions of the states",
         )
@@ -198,16 +198,14 @@ def base_reads(states: Iterable[str]) -> dict[str, Reads]:
 
 def _nonlinear(expr: Expr, label: str, origin: Span) -> ModelError:
     way_out = "a set-valued term may be added and multiplied by single-valued factors only"
-    places = _places(expr.span, label, origin)
-    return _refused(
-        "NS203", "`sgn` must appear linearly", _places(expr.span, label, origin), way_out
-    )
+    places = _places(expr.span, label, origin, "and the term is here")
+    return _refused("NS203", "`sgn` must appear linearly", places, way_out)
 
 
-def _places(span: Span, text: str, other: Span) -> list[Label]:
+def _places(span: Span, text: str, other: Span, other_text: str) -> list[Label]:
     """Return one place, and another unless the two overlap."""
     apart = span.end <= other.start or other.end <= span.start
-    return [Label(span, text), *([Label(other, "and the term is here")] if apart else [])]
+    return [Label(span, text), *([Label(other, other_text)] if apart else [])]
 
 
 def _refused(code: str, message: str, labels: list[Label], way_out: str, *notes: str) -> ModelError:
