@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from nsode.analysis import Analysis
     from nsode.backends.casadi.model import CasadiModel
     from nsode.backends.sympy import SymbolicSystem
+    from nsode.explain import Explanation
     from nsode.simulate import Trajectory
     from nsode.simulate.inputs import Signal
 
@@ -166,6 +167,23 @@ class Model:
         from nsode.analysis import analyze
 
         return analyze(self.inclusion, self.ode, along=along, impact_speed=impact_speed)
+
+    def explain(self) -> Explanation:
+        """Return how the inclusion becomes the ODE, step by step; a notebook shows it typeset."""
+        from nsode.explain import explain
+
+        return explain(self.inclusion, self.ode)
+
+    def _repr_mimebundle_(
+        self, include: Container[str] | None = None, exclude: Container[str] | None = None
+    ) -> dict[str, str]:
+        return self.explain()._repr_mimebundle_(include, exclude)
+
+    def __repr__(self) -> str:
+        return (
+            f"<nsode.Model {self.name}: {len(self.ode.states)} states, "
+            f"{len(self.inclusion.terms)} set-valued terms>"
+        )
 
     def simulate(
         self,
