@@ -6,13 +6,23 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain
 
-from nsode.expr import Expr, names
+from nsode.expr import Expr, Name, children
 from nsode.ode import AugmentedODE, Binding, Definition, LinearSolve, Placed
 
 
 def reads(*exprs: Expr) -> set[str]:
     """Return every name that some expressions read, families by their one name."""
-    return {name.id for expr in exprs for name in names(expr)}
+    found: set[str] = set()
+    for expr in exprs:
+        _gather(expr, found)
+    return found
+
+
+def _gather(expr: Expr, found: set[str]) -> None:
+    if isinstance(expr, Name):
+        found.add(expr.id)
+    for child in children(expr):
+        _gather(child, found)
 
 
 def defines(item: Definition) -> tuple[str, ...]:

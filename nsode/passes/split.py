@@ -66,7 +66,18 @@ def pieces(range: IndexRange, *exprs: Expr) -> list[tuple[IndexRange, tuple[Expr
 
 def settle(expr: Expr) -> Expr:
     """Decide what numbers alone decide in an expression without an index of its own."""
-    return _resolve(expr, {})
+    return expr if _is_settled(expr) else _resolve(expr, {})
+
+
+def _is_settled(expr: Expr) -> bool:
+    """Whether there is nothing to decide: most expressions, so they are not rebuilt."""
+    match expr:
+        case Call(function, args):
+            return not FUNCTIONS[function].boolean and all(map(_is_settled, args))
+        case If() | Sum():
+            return False
+        case _:
+            return True
 
 
 def split(ode: AugmentedODE) -> AugmentedODE:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from nsode.backends.c.expressions import lower
 from nsode.backends.c.plan import Scatter
 from nsode.backends.jacobian import SparseJacobian
+from nsode.derivative import Pattern
 from nsode.expr import Index
 
 if TYPE_CHECKING:
@@ -20,26 +21,33 @@ _PLACES, _ROWS, _COLUMNS = "jac_places", "jac_rows", "jac_columns"
 
 
 class Arranged(NamedTuple):
-    """The work of a Jacobian, and the places of the values of its families, in one table.
+    """The pattern and the work of a Jacobian; the places of its families in one table.
 
     ``adds`` tells that some place gets more than one value, so that all begin with zero.
     """
 
+    pattern: Pattern
     work: tuple[Scatter, ...]
     places: tuple[int, ...]
     adds: bool
 
+    @property
+    def size(self) -> int:
+        """How many values the Jacobian has."""
+        return len(self.pattern.rows)
+
 
 def arranged(sparse: SparseJacobian) -> Arranged:
     """Return what a Jacobian has to compute."""
-    singles = Counter(sparse.pattern.places[p.number][0] for p in sparse.pieces if not p.ranges)
+    pattern = sparse.pattern()
+    singles = Counter(pattern.places[p.number][0] for p in sparse.pieces if not p.ranges)
     families = any(piece.ranges for piece in sparse.pieces)
-    adds = families or len(singles) < sparse.size or max(singles.values(), default=1) > 1
+    adds = families or len(singles) < len(pattern.rows) or max(singles.values(), default=1) > 1
     work: list[Scatter] = []
     places: list[int] = []
     starts: dict[int, int] = {}
     for piece in sparse.pieces:
-        here = sparse.pattern.places[piece.number]
+        here = pattern.places[piece.number]
         if not piece.ranges:
             work.append(Scatter(piece.value, adds, here[0]))
             continue
@@ -49,7 +57,7 @@ def arranged(sparse: SparseJacobian) -> Arranged:
         start, outside = starts[piece.number], min(here) < 0
         outer, *inner = piece.ranges
         work.append(Scatter(piece.value, adds, start, outer, tuple(inner), piece.first, outside))
-    return Arranged(tuple(work), tuple(places), adds)
+    return Arranged(pattern, tuple(work), tuple(places), adds)
 
 
 def write(work: Scatter, writer: Writer) -> None:
@@ -77,7 +85,7 @@ def write(work: Scatter, writer: Writer) -> None:
 
 def cleared(program: Program) -> list[str]:
     """Return the lines that set the Jacobian to zero, where it is added up."""
-    if not arranged(program.jacobian).adds or not program.jacobian.size:
+    if not program.jacobian.adds or not program.jacobian.size:
         return []
     return [
         f"    for (int k = 0; k < {program.prefix}_JAC_NNZ; ++k) {{",
@@ -91,9 +99,8 @@ def tables(program: Program) -> Iterator[str]:
     pattern = program.jacobian.pattern
     yield _table(_ROWS, pattern.rows)
     yield _table(_COLUMNS, pattern.columns)
-    places = arranged(program.jacobian).places
-    if places:
-        yield _table(_PLACES, places)
+    if program.jacobian.places:
+        yield _table(_PLACES, program.jacobian.places)
 
 
 def fill(program: Program) -> list[str]:

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from nsode.backends import Options
+from nsode.backends.c.jacobian import Arranged, arranged
 from nsode.backends.c.names import Mangler, identifier, mangled
-from nsode.backends.jacobian import SparseJacobian, sparse_jacobian
+from nsode.backends.jacobian import sparse_jacobian
 from nsode.ode import AugmentedODE, Check, Placed, Slot, layout, size
 from nsode.passes.split import split, split_check
 
@@ -44,7 +45,7 @@ class Program:
     y: Vector
     bindings: Mangler
     checks: tuple[tuple[int, Check], ...]
-    jacobian: SparseJacobian
+    jacobian: Arranged
     used: set[str] = field(default_factory=set)
 
     @property
@@ -75,7 +76,7 @@ def program(ode: AugmentedODE, options: Options) -> Program:
         y=vector("y", ode.outputs),
         bindings=Mangler("b_"),
         checks=_numbered_checks(ode),
-        jacobian=sparse,
+        jacobian=arranged(sparse),
     )
 
 

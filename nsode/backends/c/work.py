@@ -7,7 +7,6 @@ from dataclasses import replace
 from itertools import chain
 from math import nan
 
-from nsode.backends.c.jacobian import arranged
 from nsode.backends.c.plan import Require, Scatter, Store, Work, exprs
 from nsode.backends.c.program import Program, Vector
 from nsode.expr import TIME, Expr, IndexRange, Name, Number, rebuild
@@ -35,7 +34,7 @@ def outputs(program: Program) -> list[Work]:
 
 def jacobian(program: Program) -> list[Work]:
     """Return the work of ``J``."""
-    return _with_bindings(program, arranged(program.jacobian).work)
+    return _with_bindings(program, program.jacobian.work)
 
 
 def checks(program: Program) -> list[Work]:
@@ -69,22 +68,7 @@ def start(program: Program) -> list[list[Work]]:
 
 
 def _phases(program: Program) -> list[list[State]]:
-    behind: dict[str, set[str]] = {}
-    for item in program.ode.bindings:
-        read = reads(*expressions(item))
-        for name in defines(item):
-            behind.setdefault(name, set()).update(
-                chain.from_iterable(behind.get(other, {other}) for other in read)
-            )
-    waiting = {
-        state.name: {
-            name
-            for read in reads(state.initial)
-            for name in behind.get(read, {read})
-            if name in program.x.slots
-        }
-        for state in program.ode.states
-    }
+    waiting = _states_behind(program)
     phases: list[list[State]] = []
     left = list(program.ode.states)
     while left:
@@ -93,8 +77,25 @@ def _phases(program: Program) -> list[list[State]]:
         if not ready:
             raise ValueError(f"`{left[0].name}` at the start depends on itself")
         phases.append(ready)
-        left = [state for state in left if not waiting[state.name].isdisjoint(open_names)]
+        done = {state.name for state in ready}
+        left = [state for state in left if state.name not in done]
     return phases
+
+
+def _states_behind(program: Program) -> dict[str, set[str]]:
+    """Return the states on which the initial value of each state rests, through bindings."""
+    read = {state.name: reads(state.initial) for state in program.ode.states}
+    wanted = set().union(*read.values())
+    behind: dict[str, set[str]] = {name: {name} for name in program.x.slots}
+    for item in needed(program.ode.bindings, wanted):
+        states = _behind(reads(*expressions(item)), behind)
+        for name in defines(item):
+            behind.setdefault(name, set()).update(states)
+    return {name: _behind(names, behind) for name, names in read.items()}
+
+
+def _behind(names: set[str], behind: dict[str, set[str]]) -> set[str]:
+    return set().union(*(behind.get(name, ()) for name in names))
 
 
 def _at_start(expr: Expr, program: Program) -> Expr:
