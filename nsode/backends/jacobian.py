@@ -29,27 +29,26 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class SparseJacobian:
-    """An ODE extended by what its Jacobian reads, the pieces, and the pattern."""
+    """An ODE extended by what its Jacobian reads, the entries, and their pieces."""
 
     ode: AugmentedODE
+    entries: tuple[Entry, ...]
     pieces: tuple[Piece, ...]
-    pattern: Pattern
 
-    @property
-    def size(self) -> int:
-        """How many values the Jacobian has."""
-        return len(self.pattern.rows)
+    def pattern(self) -> Pattern:
+        """Return where every value of every entry stands."""
+        states = layout(self.ode.states)
+        return pattern(self.entries, states, states)
 
 
 def sparse_jacobian(ode: AugmentedODE) -> SparseJacobian:
     """Return the Jacobian of an ODE that is not in pieces yet."""
     found = jacobian(ode)
-    states = layout(ode.states)
     kept = [piece for n, entry in enumerate(found.entries) for piece in _pieces(entry, n)]
     return SparseJacobian(
         replace(ode, bindings=(*ode.bindings, *found.definitions)),
+        found.entries,
         tuple(kept),
-        pattern(found.entries, states, states),
     )
 
 
