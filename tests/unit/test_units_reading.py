@@ -18,14 +18,8 @@ from nsode.source import Span
 from nsode.syntax.ast import Unit
 
 REGISTRY = pint.UnitRegistry()
-PINT_BASE = dict(
-    zip(
-        BASE,
-        ["[mass]", "[length]", "[time]", "[current]"]
-        + ["[temperature]", "[substance]", "[luminosity]"],
-        strict=True,
-    )
-)
+QUANTITIES = ("mass", "length", "time", "current", "temperature", "substance", "luminosity")
+PINT_BASE = {symbol: f"[{name}]" for symbol, name in zip(BASE, QUANTITIES, strict=True)}
 PLAIN = [*BASE, *_DERIVED, "g"]
 PREFIXED = [a + b for a, b in product(_PREFIXES, PLAIN) if b != "kg"]
 #: pint reads it as a thousandth of a day, in hundredths.
@@ -94,9 +88,11 @@ def test_without_pint_other_units_say_what_to_install(monkeypatch: pytest.Monkey
         ("degF/s", "`degF` has a zero of its own, so it cannot be multiplied", "{K}"),
         ("dB", "`dB` is a logarithmic scale, no unit", "the ratio itself"),
         ("pixel", "`pixel` has no measure in SI", "{1}"),
-        ("Nm", "`Nm` is no unit", "`N*m`"),
-        ("Ns/m", "unknown unit `Ns`", "`N*s`"),
-        ("m2", "unknown unit `m2`", "`m^2`"),
+        ("Nm", "`Nm` is no unit", "did you mean `N*m`?"),
+        ("rads", "`rads` is no unit", "did you mean `rad/s`?"),
+        ("Ns/m", "unknown unit `Ns`", "did you mean `N*s`?"),
+        ("m2", "unknown unit `m2`", "did you mean `m^2`?"),
+        ("kgm2", "unknown unit `kgm2`", "did you mean `kg*m^2`?"),
         ("ohms_", "unknown unit `ohms_`", "did you mean `ohm`?"),
         ("blorps", "unknown unit `blorps`", "{N/m}"),
         ("__class__", "unknown unit `__class__`", "{N/m}"),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from nsode.diagnostics import Diagnostic
 from nsode.expr import TIME, Expr
+from nsode.inclusion.equations import derivative_name
 from nsode.inclusion.units import messages
 from nsode.inclusion.units.declared import Declared, any_unit, declared_units, stated_in_si
 from nsode.inclusion.units.dimension import SECOND
@@ -44,7 +46,8 @@ def check_units(
     if not any_unit(model):
         return inclusion, ()
     declared = declared_units(model)
-    check = _Check(declared, _inference(inclusion, declared))
+    states = {derivative_name(state.name): state.name for state in inclusion.states}
+    check = _Check(declared, _inference(inclusion, declared), states)
     check.whole(inclusion)
     problems = (*declared.unknown, *check.inference.found.values())
     return stated_in_si(inclusion, declared), problems
@@ -60,15 +63,18 @@ def _inference(inclusion: DifferentialInclusion, declared: Declared) -> Inferenc
     for state in inclusion.states:
         quantity = known.get(state.name)
         if quantity is not None:
-            known[f"der({state.name})"] = over(quantity, _SECONDS)
+            known[derivative_name(state.name)] = over(quantity, _SECONDS)
     places = {name: unit.written.span for name, unit in declared.names.items()}
     return Inference(known, places)
 
 
 @dataclass(slots=True)
 class _Check:
+    """The course of a check; ``states`` maps the name of each rate to its state."""
+
     declared: Declared
     inference: Inference
+    states: Mapping[str, str]
 
     def whole(self, inclusion: DifferentialInclusion) -> None:
         """Check everything, definitions before what reads them."""
@@ -95,8 +101,8 @@ class _Check:
     def _binding(self, item: Binding) -> None:
         if item.role in ("let", "force"):
             quantity = self._value(item.name, item.value)
-        elif item.name.startswith("der("):
-            self._rate(item.name[4:-1], item.value, item.span)
+        elif item.name in self.states:
+            self._rate(self.states[item.name], item.value, item.span)
             return
         else:
             quantity = self.inference.of(item.value)
@@ -110,7 +116,7 @@ class _Check:
         return check_value(f"`{head(name)}`", value, unit, self.inference)
 
     def _rate(self, state: str, value: Expr, equation: Span) -> None:
-        wanted = self.inference.known.get(f"der({state})", UNKNOWN)
+        wanted = self.inference.known.get(derivative_name(state), UNKNOWN)
         found = self.inference.of(value)
         unit = self.declared.of(state)
         if unit is not None and found.rigid not in (None, wanted.dimension):

@@ -146,21 +146,28 @@ class Inference:
     def _disagree(
         self, odd: Expr, value: Quantity, first: Expr, expected: Quantity, relation: str
     ) -> None:
+        odd, first = _unsigned(odd), _unsigned(first)
         places = (*self._places(odd), *self._places(first))
         self.add(messages.disagreement(value, odd.span, expected, first.span, relation, *places))
 
     def _places(self, expr: Expr) -> list[Label]:
         match expr:
-            case Call("neg", (inner,)):
-                return self._places(inner)
-            case Name(id) if head(id) in self.places:
-                return [Label(self.places[head(id)], f"`{head(id)}` is declared here")]
+            case Name(id) if (name := head(id)) in self.places:
+                return [Label(self.places[name], f"`{name}` is declared here")]
         return []
 
 
 def head(name: str) -> str:
     """Return the declared name that a component belongs to: ``p`` for ``p.x`` and ``q[1]``."""
     return name.partition(".")[0].partition("[")[0]
+
+
+def _unsigned(expr: Expr) -> Expr:
+    """Return an expression without the sign before it."""
+    match expr:
+        case Call("neg", (inner,)):
+            return inner
+    return expr
 
 
 def _loose(one: Quantity, other: Quantity) -> Quantity:

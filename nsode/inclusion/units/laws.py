@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
@@ -18,26 +19,35 @@ class _Powers(NamedTuple):
     time: int = 0
 
 
-_TIMES = {"alpha": _Powers(time=1), "beta": _Powers(time=1)}
-_CONSTANTS = {
+_Table = Mapping[str, Mapping[str, _Powers]]
+
+_TARGETS: _Table = {
     "dio": {
-        **_TIMES,
-        "K": _Powers(force=1, argument=-1),
         "restitution": _Powers(),
         "impact_speed": _Powers(argument=1, time=-1),
         "penetration": _Powers(argument=1),
         "effective_mass": _Powers(force=1, argument=-1, time=2),
     },
     "sgn": {
-        **_TIMES,
-        "K": _Powers(force=1, argument=-1, time=-1),
         "presliding": _Powers(argument=1, time=1),
         "damping_ratio": _Powers(),
         "effective_mass": _Powers(force=1, argument=-1, time=1),
     },
 }
-#: The laws whose constants the table has; those of others are not checked.
-_LAWS = {"xiong2013"}
+#: What each law's constants measure. Those of a law without an entry are not checked.
+_CONSTANTS: Mapping[str, _Table] = {
+    "xiong2013": {
+        "dio": {
+            "K": _Powers(force=1, argument=-1),
+            "alpha": _Powers(time=1),
+            "beta": _Powers(time=1),
+        },
+        "sgn": {
+            "K": _Powers(force=1, argument=-1, time=-1),
+            "beta": _Powers(time=1),
+        },
+    },
+}
 
 
 def constant(
@@ -76,6 +86,5 @@ def follows_from_units(term: SetValuedTerm, name: str) -> bool:
 
 
 def _powers(term: SetValuedTerm, name: str) -> _Powers | None:
-    if term.approximation.law not in _LAWS:
-        return None
-    return _CONSTANTS[term.kind].get(name)
+    constants = _CONSTANTS.get(term.approximation.law, {}).get(term.kind, {})
+    return constants.get(name) or _TARGETS[term.kind].get(name)

@@ -39,7 +39,7 @@ class UnitError(Exception):
 
 
 class UnknownUnitError(UnitError):
-    """A name that nobody knows, at least on this machine."""
+    """A name that nobody knows."""
 
 
 def look_up(word: str) -> Measure:
@@ -54,7 +54,7 @@ def look_up(word: str) -> Measure:
     try:
         import pint
     except ImportError:
-        raise UnknownUnitError(
+        raise UnitError(
             f"`{word}` is no SI unit, and pint, which knows others, is not installed",
             "install it with `pip install 'nsode[units]'`, or write the value in SI",
         ) from None

@@ -38,6 +38,8 @@ _OTHERS = {
     "deg": Measure(Fraction(math.pi) / 180, ONE),
 }
 _PREFIXES = {"n": -9, "u": -6, "m": -3, "c": -2, "d": -1, "h": 2, "k": 3, "M": 6, "G": 9}
+#: What pint would read as a yarn number, a dose of radiation, and pascals.
+_TRAPS = {"Nm": "N*m", "rads": "rad/s", "Pas": "Pa*s"}
 _SYMBOLS = (*BASE, *_DERIVED, *_OTHERS)
 
 _TOKEN = re.compile(r"[A-Za-z_]\w*|\d+(?:\.\d+)?|\S")
@@ -183,8 +185,8 @@ def _named(word: str) -> Measure:
     if word[0] in _PREFIXES and word[1:] in _SYMBOLS and word[1:] not in {"kg", "deg"}:
         tenfold = Measure(Fraction(10) ** _PREFIXES[word[0]], ONE)
         return _times(tenfold, _named(word[1:]))
-    if word == "Nm":
-        raise UnknownUnitError("`Nm` is no unit", "a newton meter is written `N*m`")
+    if word in _TRAPS:
+        raise UnknownUnitError(f"`{word}` is no unit", f"did you mean `{_TRAPS[word]}`?")
     try:
         return look_up(word)
     except UnknownUnitError as error:
@@ -192,10 +194,10 @@ def _named(word: str) -> Measure:
 
 
 def _meant(word: str) -> str | None:
-    """Return what a person may have meant by an unknown word."""
-    if numbered := re.fullmatch(r"([A-Za-z]+)(\d)", word):
-        return f"write powers as `{numbered[1]}^{numbered[2]}`"
-    for k in range(1, len(word)):
-        if word[:k] in _SYMBOLS and word[k:] in _SYMBOLS:
-            return f"write products as `{word[:k]}*{word[k:]}`"
+    """Return what a person may have meant by an unknown word, such as ``kgm2``."""
+    letters, digit = word.rstrip("0123456789"), word[-1:] if word[-1:].isdigit() else ""
+    for k in range(1, len(letters) + 1):
+        parts = [part for part in (letters[:k], letters[k:]) if part]
+        if all(part in _SYMBOLS for part in parts) and letters + digit == word:
+            return f"did you mean `{'*'.join(parts)}{'^' + digit if digit else ''}`?"
     return suggest(word, _SYMBOLS)
