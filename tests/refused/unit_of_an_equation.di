@@ -1,0 +1,7 @@
+model bouncing_mass
+parameter M = 1 {kg}
+state p = 1 {m}
+state v = 0 {m/s}
+force N = dio(p) {N}
+der(p) = v
+M*der(v) = N/M
