@@ -18,6 +18,7 @@ COMMANDS: dict[str, str] = {
     "compile": "Write a model as code that integrates.",
     "simulate": "Run a model and show what happened.",
     "analyze": "Show what is known of a model before it runs.",
+    "explain": "Show how the inclusion becomes an ODE.",
     "check": "Say whether models are sound, and what is wrong where they are not.",
     "new": "Write a model to start from.",
     "doctor": "Show what nsode finds on this machine.",

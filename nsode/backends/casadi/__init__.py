@@ -20,8 +20,6 @@ def functions(ode: AugmentedODE, method: str = "rk4") -> CasadiModel:
 
     Raises
     ------
-    ModelError
-        If CasADi is not installed.
     ValueError
         If the method has no tableau.
     """
@@ -29,7 +27,6 @@ def functions(ode: AugmentedODE, method: str = "rk4") -> CasadiModel:
     if not isinstance(scheme, RungeKutta):
         known = ", ".join(name for name, s in REGISTRY.items() if isinstance(s, RungeKutta))
         raise ValueError(f"`{method}` is no explicit Runge-Kutta method; there are {known}")
-    _demand_casadi()
     from nsode.backends.casadi.build import build
 
     return build(ode, scheme)
@@ -41,7 +38,7 @@ def emit(ode: AugmentedODE, options: Options) -> dict[str, str]:
     Raises
     ------
     ModelError
-        If CasADi is not installed, or single precision is asked for.
+        If single precision is asked for.
     """
     if options.real != "double":
         message = "CasADi computes in double precision only"
@@ -50,12 +47,3 @@ def emit(ode: AugmentedODE, options: Options) -> dict[str, str]:
     from nsode.backends.casadi.files import files
 
     return files(model, ode, options.prefix or ode.name)
-
-
-def _demand_casadi() -> None:
-    try:
-        import casadi  # noqa: F401
-    except ImportError as error:
-        message = "CasADi is not installed"
-        way_out = "install it with `pip install nsode[casadi]`"
-        raise ModelError([Diagnostic("NS603", message, help=way_out)]) from error

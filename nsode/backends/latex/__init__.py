@@ -10,9 +10,10 @@ from nsode.ode import AugmentedODE
 from nsode.passes.prune import needed, reads
 from nsode.passes.split import split
 
-__all__ = ["Environment", "emit", "equations", "lower"]
+__all__ = ["DOCUMENT", "Environment", "emit", "equations", "lower"]
 
-_DOCUMENT = r"""\documentclass{{article}}
+#: A document of its own, to be given a title and a body.
+DOCUMENT = r"""\documentclass{{article}}
 \usepackage{{amsmath}}
 \setcounter{{MaxMatrixCols}}{{64}}
 \begin{{document}}
@@ -25,7 +26,7 @@ def emit(ode: AugmentedODE, options: Options) -> dict[str, str]:
     """Return ``PREFIX.tex``, a document of its own."""
     body = equations(ode, "\\[\n{}\n\\]\n", "where\n")
     title = escape(ode.name)
-    return {f"{options.prefix or ode.name}.tex": _DOCUMENT.format(title=title, body=body)}
+    return {f"{options.prefix or ode.name}.tex": DOCUMENT.format(title=title, body=body)}
 
 
 def equations(ode: AugmentedODE, display: str, between: str) -> str:

@@ -11,8 +11,8 @@ from nsode.ode import (
     AugmentedODE,
     Binding,
     Definition,
-    DifferentialInclusion,
     LinearSolve,
+    Rate,
     SetValuedTerm,
     System,
 )
@@ -27,15 +27,18 @@ def environment(*systems: System) -> Environment:
 
 
 def state_space(system: System, env: Environment) -> str:
-    """Return d/dt of the column of states beside the column of rates, as in (32)."""
-    relation = r"\in" if isinstance(system, DifferentialInclusion) else "="
-    rates = split(system).rates if isinstance(system, AugmentedODE) else system.rates
-    order = {state.name: place for place, state in enumerate(system.states)}
-    rows = sorted(rates, key=lambda rate: order[rate.state])
-    left = [element(env.symbols[r.state], r.range, env) for r in rows]
-    right = [spread(r.value, r.range, env) for r in rows]
-    derivative = r"\frac{\mathrm{d}}{\mathrm{d}t}"
-    return f"{derivative}\n{column(left)}\n{relation}\n{column(right)}"
+    """Return d/dt of the column of states beside the column of rates, as in (31) and (32)."""
+    if isinstance(system, AugmentedODE):
+        return columns(split(system).rates, "=", env)
+    return columns(system.rates, r"\in", env)
+
+
+def columns(rates: Iterable[Rate], relation: str, env: Environment) -> str:
+    """Return d/dt of a column of states, a relation, and the column of their rates."""
+    rows = list(rates)
+    left = column(element(env.symbols[rate.state], rate.range, env) for rate in rows)
+    right = column(spread(rate.value, rate.range, env) for rate in rows)
+    return f"\\frac{{\\mathrm{{d}}}}{{\\mathrm{{d}}t}}\n{left}\n{relation}\n{right}"
 
 
 def column(rows: Iterable[str]) -> str:
@@ -45,10 +48,15 @@ def column(rows: Iterable[str]) -> str:
 
 def element(symbol: Symbol, range: IndexRange | None, env: Environment) -> str:
     """Return a name, or all elements of a family, or its only one."""
+    text = str(one(symbol, range, env))
+    return text if range is None else _family(text, range)
+
+
+def one(symbol: Symbol, range: IndexRange | None, env: Environment) -> Symbol:
+    """Return a name, for a family with its index."""
     if range is None:
-        return str(symbol)
-    one = str(symbol.at(lower(Index(range.variable), env.inside(range))))
-    return _family(one, range)
+        return symbol
+    return symbol.at(lower(Index(range.variable), env.inside(range)))
 
 
 def spread(value: Expr, range: IndexRange | None, env: Environment) -> str:
@@ -66,31 +74,35 @@ def _family(text: str, range: IndexRange) -> str:
 
 def definitions(items: Iterable[Definition], env: Environment) -> str:
     """Return definitions one below the other, aligned."""
-    rows = [row for item in items for row in definition(item, env)]
+    return aligned(row for item in items for row in definition(item, env))
+
+
+def aligned(rows: Iterable[str]) -> str:
+    """Return equations one below the other; ``&`` stands before each relation."""
     return "\\begin{aligned}\n" + _ROW.join(rows) + "\n\\end{aligned}"
 
 
 def definition(item: Definition, env: Environment) -> Iterator[str]:
     """Yield the rows of one definition, with ``&`` before its relation."""
     inner = env if item.range is None else env.inside(item.range)
-    index = None if item.range is None else lower(Index(item.range.variable), inner)
-
-    def named(name: str) -> str:
-        symbol: Symbol = env.symbols[name]
-        return str(symbol if index is None else symbol.at(index))
-
     match item:
         case Binding(name, value):
-            yield f"{named(name)} &= {lower(value, inner)}{_over(item.range)}"
+            yield f"{vector((name,), item.range, env)} &= {lower(value, inner)}{over(item.range)}"
         case SetValuedTerm():
-            left = ", ".join(named(name) for name in item.multiplier)
-            left = left if len(item.multiplier) == 1 else rf"\left({left}\right)"
-            yield rf"{left} &\in {inclusion(item, inner)}{_over(item.range)}"
+            left = vector(item.multiplier, item.range, env)
+            yield rf"{left} &\in {inclusion(item, inner)}{over(item.range)}"
         case LinearSolve(unknowns, matrix, right):
             rows = _ROW.join(" & ".join(lower(e, inner) for e in row) for row in matrix)
             table = f"\\begin{{bmatrix}}\n{rows}\n\\end{{bmatrix}}"
+            left = column(vector((unknown,), item.range, env) for unknown in unknowns)
             sides = column(lower(e, inner) for e in right)
-            yield f"{table} {column(map(named, unknowns))} &= {sides}{_over(item.range)}"
+            yield f"{table} {left} &= {sides}{over(item.range)}"
+
+
+def vector(names: tuple[str, ...], range: IndexRange | None, env: Environment) -> str:
+    """Return the name of a value, or the names of the components of one."""
+    shown = [str(one(env.symbols[name], range, env)) for name in names]
+    return shown[0] if len(shown) == 1 else rf"\left({', '.join(shown)}\right)"
 
 
 def inclusion(term: SetValuedTerm, env: Environment) -> str:
@@ -112,7 +124,8 @@ def factor(chi: Expr, env: Environment) -> str:
             return rf"{text} \, "
 
 
-def _over(range: IndexRange | None) -> str:
+def over(range: IndexRange | None) -> str:
+    """Return what stands behind the definition of a family: its index."""
     if range is None or len(range) == 1:
         return ""
     return rf", \quad {word(range.variable)} = {range.first}, \dots, {range.last}"

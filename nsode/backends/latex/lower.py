@@ -128,11 +128,8 @@ def _call(function: str, args: tuple[Expr, ...], env: Environment) -> Tex:
             return Tex(rf"\sqrt{{{texts[0]}}}", _ATOM)
         case "abs":
             return Tex(rf"\left|{texts[0]}\right|", _ATOM)
-        case "norm":
-            inner = texts[0] if len(texts) == 1 else rf"\left({', '.join(texts)}\right)"
-            return Tex(rf"\left\|{inner}\right\|", _ATOM)
-        case "shrink":
-            return Tex(rf"\min\left(1, \frac{{{texts[0]}}}{{{texts[1]}}}\right)", _POWER)
+        case "norm" | "sat" | "shrink":
+            return _of_vector(function, texts)
         case "mod":
             a, b = _at_least(parts[0], _PRODUCT), _at_least(parts[1], _POWER)
             return Tex(rf"{a} \bmod {b}", _SUM)
@@ -147,6 +144,20 @@ def _call(function: str, args: tuple[Expr, ...], env: Environment) -> Tex:
             )
         case _:
             return Tex(rf"{_OPERATORS[function]}\left({', '.join(texts)}\right)", _POWER)
+
+
+def _of_vector(function: str, texts: list[str]) -> Tex:
+    """Return a norm or a saturation; the components of a vector stand in brackets."""
+    first, rest = texts[0], texts[1:]
+    match function:
+        case "norm":
+            inner = rf"\left({', '.join(texts)}\right)" if rest else first
+            return Tex(rf"\left\|{inner}\right\|", _ATOM)
+        case "shrink":
+            return Tex(rf"\min\left(1, \frac{{{first}}}{{{rest[0]}}}\right)", _POWER)
+        case _:
+            inner = rf"\left({', '.join(rest)}\right)" if len(rest) > 1 else rest[0]
+            return Tex(rf"\operatorname{{sat}}\left({first}, {inner}\right)", _POWER)
 
 
 def _at_least(part: Tex, level: int) -> str:

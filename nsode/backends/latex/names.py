@@ -38,6 +38,11 @@ class Symbol:
         """Return the symbol with one more subscript."""
         return replace(self, subscripts=(*self.subscripts, index))
 
+    @property
+    def dot(self) -> Symbol:
+        """The symbol of its rate."""
+        return replace(self, base=rf"\dot{{{self.base}}}")
+
 
 def _join(subscripts: tuple[str, ...]) -> str:
     text = subscripts[0]
@@ -70,10 +75,18 @@ def _subscript(text: str) -> str:
 
 def escape(text: str) -> str:
     """Return text with nothing in it that TeX would act on."""
-    return re.sub(r"[^A-Za-z0-9.]", lambda match: _ESCAPES.get(match[0], "?"), text)
+    return re.sub(r"[^A-Za-z0-9.]", lambda match: _escaped(match[0]), text)
 
 
-_ESCAPES = {"_": r"\_", " ": r"\ ", "[": "[", "]": "]", "-": "-", "/": "/", ",": ",", "'": "'"}
+def _escaped(character: str) -> str:
+    if character in "_#$%&{} ":
+        return f"\\{character}"
+    if character in "\\^~":
+        return _SPELT[character]
+    return character if " " < character < "\x7f" else "?"
+
+
+_SPELT = {"\\": r"\textbackslash{}", "^": r"\textasciicircum{}", "~": r"\textasciitilde{}"}
 
 
 def symbols(*systems: System) -> Mapping[str, Symbol]:
