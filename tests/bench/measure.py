@@ -5,29 +5,25 @@ from __future__ import annotations
 import math
 import subprocess
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from statistics import median
 
 
-def seconds(action: Callable[[], object], rounds: int) -> float:
-    """Return the median time of an action."""
-    taken = []
+def in_turns(actions: Mapping[str, Callable[[], object]], rounds: int) -> dict[str, float]:
+    """Return the median time of each action; they take turns, to share what disturbs them."""
+    taken: dict[str, list[float]] = {name: [] for name in actions}
     for _ in range(rounds):
-        begin = time.perf_counter()
-        action()
-        taken.append(time.perf_counter() - begin)
-    return median(taken)
-
-
-def interleaved(commands: dict[str, Sequence[str]], rounds: int) -> dict[str, float]:
-    """Return the median time of each command; the commands take turns."""
-    taken: dict[str, list[float]] = {name: [] for name in commands}
-    for _ in range(rounds):
-        for name, command in commands.items():
+        for name, action in actions.items():
             begin = time.perf_counter()
-            subprocess.run(command, check=True, capture_output=True)
+            action()
             taken[name].append(time.perf_counter() - begin)
     return {name: median(values) for name, values in taken.items()}
+
+
+def command(*words: str) -> Callable[[], object]:
+    """Return the action of running a program to its end."""
+    return partial(subprocess.run, words, check=True, capture_output=True)
 
 
 def exponent(sizes: Sequence[float], times: Sequence[float]) -> float:

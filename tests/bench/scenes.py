@@ -5,10 +5,9 @@ from __future__ import annotations
 from functools import partial
 
 import nsode
-from measure import exponent, seconds, table
+from measure import exponent, in_turns, table
 from support import MODELS
 
-LINES_PER_CONTACT = 5
 CONTACT = """\
 state p{i} = {height}  {{m}}
 state v{i} = 0  {{m/s}}
@@ -35,19 +34,23 @@ def to_c(text: str) -> dict[str, str]:
 
 def main() -> None:
     """Measure and print."""
-    nsode.loads(MODELS[0].read_text(encoding="utf-8"))  # the parser is made once
-    rows = [
-        (path.stem, str(len(text.splitlines())), f"{1e3 * seconds(partial(to_c, text), 5):.1f}")
-        for path in MODELS
-        for text in [path.read_text(encoding="utf-8")]
-    ]
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in MODELS}
+    rows = _rows(texts, _measured(texts, 5))
     table("From text to C, shipped models", ("model", "lines", "ms"), rows)
-    sizes = [1250, 2500, 5000, 10_000]
-    texts = [written_out(lines // LINES_PER_CONTACT) for lines in sizes]
-    times = [seconds(partial(to_c, text), 3) for text in texts]
-    rows = [
-        (f"{lines // LINES_PER_CONTACT} contacts", str(lines), f"{1e3 * taken:.0f}")
-        for lines, taken in zip(sizes, times, strict=True)
+    sizes = [250, 500, 1000, 2000]
+    texts = {f"{contacts} contacts": written_out(contacts) for contacts in sizes}
+    times = _measured(texts, 5)
+    table("From text to C, contacts written out", ("scene", "lines", "ms"), _rows(texts, times))
+    print(f"  growth exponent {exponent(sizes, list(times.values())):.2f}")
+
+
+def _measured(texts: dict[str, str], rounds: int) -> dict[str, float]:
+    to_c(next(iter(texts.values())))  # what is made or imported once does not count
+    return in_turns({name: partial(to_c, text) for name, text in texts.items()}, rounds)
+
+
+def _rows(texts: dict[str, str], times: dict[str, float]) -> list[tuple[str, str, str]]:
+    return [
+        (name, str(len(text.splitlines())), f"{1e3 * times[name]:.1f}")
+        for name, text in texts.items()
     ]
-    table("From text to C, contacts written out", ("scene", "lines", "ms"), rows)
-    print(f"  growth exponent {exponent(sizes, times):.2f}")
