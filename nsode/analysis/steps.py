@@ -154,7 +154,10 @@ def _elasticities(place: Reachable, worst: Worst, scheme: Scheme) -> list[tuple[
             ]
             values = np.linalg.eigvals(matrix(place.local, place.elements, nudged, worst.active))
             near = values[np.argmin(np.abs(values - worst.eigenvalue))]
-            power = np.log(reach(scheme, complex(near)) / worst.step) / np.log(_NUDGE)
+            step = reach(scheme, complex(near))
+            if not 0 < step < np.inf:  # an elastic contact grows with any less of beta
+                continue
+            power = np.log(step / worst.step) / np.log(_NUDGE)
             found[f"{term}.{word}"] = round(float(power), 2) + 0.0
     strong = [(name, power) for name, power in found.items() if abs(power) >= 0.05]
     return sorted(strong, key=lambda pair: -abs(pair[1]))

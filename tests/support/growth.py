@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 import nsode
 from nsode.analysis.local import Element, Scene
-from nsode.ode import element_names
+from nsode.backends import Options, emit
+from nsode.ode import AugmentedODE, element_names
 
 CLOSED, OPEN = -1e-5, 1e-3
 APART = 1e-9
@@ -54,8 +55,7 @@ def _nearest(matrix: NDArray, eigenvalue: complex) -> NDArray:
 
 def inside(model: nsode.Model, modes: tuple[tuple[str, str], ...]) -> Inside:
     """Return a model at a state where its elements do what ``modes`` say."""
-    code: dict[str, Any] = {}
-    exec(compile(model.emit("numpy")[f"{model.name}.py"], model.name, "exec"), code)
+    code = code_of(model, model.ode)
     scene = Scene(model.inclusion)
     x = np.zeros(code["NX"])
     x[: len(scene.state_names)] = _place(scene, dict(modes))
@@ -68,6 +68,14 @@ def inside(model: nsode.Model, modes: tuple[tuple[str, str], ...]) -> Inside:
     ).T
     code["rhs"] = lambda t, at, u=code["u0"], p=code["p0"]: plain(0.0, at, u, p) - rest
     return Inside(code, x, jacobian)
+
+
+def code_of(model: nsode.Model, ode: AugmentedODE) -> dict[str, Any]:
+    """Return the names of the NumPy module that is emitted for an ODE."""
+    code: dict[str, Any] = {}
+    (text,) = emit("numpy", ode, Options()).values()
+    exec(compile(text, model.name, "exec"), code)
+    return code
 
 
 def _place(scene: Scene, modes: dict[str, str]) -> NDArray:
