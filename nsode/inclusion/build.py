@@ -189,7 +189,12 @@ class _Course:
     def assemble(self) -> DifferentialInclusion:
         """Put the pieces together, definitions in an order that computes."""
         names_of = self.elements.renamed
-        solved, rates = solve(self.rows.rows, self.declared.states, self.declared.parameters)
+        solved, rates = solve(
+            self.rows.rows,
+            self.declared.states,
+            self.declared.parameters,
+            self.definitions.bindings,
+        )
         bindings: list[Definition] = [*self.definitions.bindings, *self.rows.bindings.values()]
         bindings.extend(solved)
         if names_of:

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain, count
 
 from nsode.diagnostics import refuse
 from nsode.expr import (
     Call,
     Expr,
+    If,
     Index,
     IndexRange,
     Name,
     Number,
+    Sum,
     add,
     divide,
     multiply,
     names,
     negate,
     rebuild,
+    walk,
 )
 from nsode.source import Span
 
@@ -50,6 +54,12 @@ class Row:
         """The derivatives that it holds."""
         return tuple(unknown for unknown, _ in self.coefficients)
 
+    def changed(self, change: Callable[[Expr], Expr], range: IndexRange) -> Row:
+        """Return the row over another range, with every expression changed."""
+        moved = ((change(unknown), change(c)) for unknown, c in self.coefficients)
+        coefficients = tuple((u, c) for u, c in moved if isinstance(u, Name))
+        return Row(coefficients, change(self.right), range, self.span)
+
 
 def row(left: Expr, right: Expr, range: IndexRange | None, span: Span) -> Row:
     """Return an equation with its derivatives on the left and the rest on the right.
@@ -75,7 +85,7 @@ def row(left: Expr, right: Expr, range: IndexRange | None, span: Span) -> Row:
             "there is no `der` here",
             help="write `let` for a quantity that is no state",
         )
-    return _aligned(found)
+    return aligned(found)
 
 
 def _joined(first: Expr | None, second: Expr) -> Expr:
@@ -108,9 +118,26 @@ def _linear(expr: Expr) -> tuple[dict[Unknown, Expr], Expr | None]:
         "NS112",
         "an equation must be linear in `der(...)`",
         culprit.span,
-        "not linear here",
-        help="solve the equation for the derivative by hand",
+        f"inside {_surroundings(expr)}",
+        help="solve the equation for the derivative by hand, or name what it equals with `let`",
     )
+
+
+def _surroundings(expr: Expr) -> str:
+    match expr:
+        case Sum():
+            return "a `sum`"
+        case If():
+            return "an `if`"
+        case Call("*", _):
+            return "a product of derivatives"
+        case Call("/", _):
+            return "a divisor"
+        case Call("^", _):
+            return "a power"
+        case Call(function, _) if function.isalpha():
+            return f"`{function}`"
+    return "a condition"
 
 
 def _linear_sum(terms: Sequence[Expr]) -> tuple[dict[Unknown, Expr], Expr | None]:
@@ -146,7 +173,7 @@ def is_unknown(name: Name) -> bool:
     return name.id.endswith(".rate")
 
 
-def _aligned(found: Row) -> Row:
+def aligned(found: Row) -> Row:
     """Move the index of a family's row so that it is the index of its first unknown."""
     at = found.unknowns[0].at
     if found.range is None or at is None or at.variable is None or at.offset == 0:
@@ -157,17 +184,7 @@ def _aligned(found: Row) -> Row:
     def move(expr: Expr) -> Expr:
         return shifted(expr, variable, by)
 
-    return Row(
-        tuple((_as_name(move(u)), move(c)) for u, c in found.coefficients),
-        move(found.right),
-        moved,
-        found.span,
-    )
-
-
-def _as_name(expr: Expr) -> Name:
-    assert isinstance(expr, Name)
-    return expr
+    return found.changed(move, moved)
 
 
 def shifted(expr: Expr, variable: str, by: int) -> Expr:
@@ -178,3 +195,20 @@ def shifted(expr: Expr, variable: str, by: int) -> Expr:
         case Name(_, Index(name, offset) as at) if name == variable:
             return replace(expr, at=replace(at, offset=offset + by))
     return rebuild(expr, lambda part: shifted(part, variable, by))
+
+
+def reindexed(expr: Expr, old: str, new: str) -> Expr:
+    """Return ``expr`` with the index ``new`` in the place of ``old``."""
+    match expr:
+        case Index(name) if name == old:
+            return replace(expr, variable=new)
+        case Name(_, Index(name) as at) if name == old:
+            return replace(expr, at=replace(at, variable=new))
+    return rebuild(expr, lambda part: reindexed(part, old, new))
+
+
+def free_index(wanted: str, exprs: Iterable[Expr]) -> str:
+    """Return a name for an index that no sum in ``exprs`` uses, ``wanted`` if possible."""
+    taken = {node.range.variable for e in exprs for node in walk(e) if isinstance(node, Sum)}
+    candidates = chain([wanted], (f"{wanted}{k}" for k in count(1)))
+    return next(name for name in candidates if name not in taken)

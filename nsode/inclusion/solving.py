@@ -2,32 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 
-from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
-from nsode.evaluate import evaluate
-from nsode.expr import Expr, Index, IndexRange, Name, Number, add, divide, names, negate
+from nsode.diagnostics import ModelError, refuse
+from nsode.expr import (
+    Call,
+    Expr,
+    If,
+    Index,
+    IndexRange,
+    Name,
+    Number,
+    divide,
+    names,
+    negate,
+)
 from nsode.inclusion.coverage import check_coverage, doubled
 from nsode.inclusion.equations import (
     Row,
     Unknown,
+    aligned,
     derivative_name,
+    free_index,
     is_unknown,
+    reindexed,
     scaled_by,
     state_of,
 )
-from nsode.inclusion.values import is_zero
+from nsode.inclusion.matching import Matching
+from nsode.inclusion.regular import Constants, check_regular
+from nsode.inclusion.values import is_zero, total
 from nsode.ode import Binding, LinearSolve, Parameter, Rate, State
 
 
 def solve(
-    rows: Sequence[Row], states: Sequence[State], parameters: Sequence[Parameter] = ()
+    rows: Sequence[Row],
+    states: Sequence[State],
+    parameters: Sequence[Parameter] = (),
+    definitions: Sequence[Binding] = (),
 ) -> tuple[list[Binding | LinearSolve], list[Rate]]:
     """Return the rate of every state, and what must be computed on the way.
 
-    Rows with one derivative are divided; a row that also reads derivatives found that
-    way reads them as names; rows that stay coupled become one linear system.
+    A row with one derivative is divided by its coefficient. A row with more reads those
+    that other rows say by their names; rows that stay coupled become one linear system.
 
     Raises
     ------
@@ -35,190 +54,176 @@ def solve(
         NS107 and NS108 for missing and doubled equations, NS113 for a coefficient that
         is zero, NS112 for systems that couple elements of a family.
     """
-    bindings: list[Binding | LinearSolve] = []
-    rates: list[Rate] = []
-    open_rows = list(rows)
-    solved: dict[Unknown, Rate] = {}
-    while True:
-        single = [r for r in open_rows if len(r.unknowns) == 1]
-        if not single:
-            break
-        for found in single:
-            rate = _single(found)
-            rates.append(rate)
-            solved.setdefault(found.unknowns[0], rate)
-        open_rows = [r for r in open_rows if len(r.unknowns) > 1]
-        open_rows = [_substitute(r, solved) for r in open_rows]
-    for group in _coupled(open_rows):
-        system = _system(group)
-        _check_rank(system.matrix, {p.name: p.values for p in parameters}, group)
-        bindings.append(system)
-        rates.extend(
-            Rate(state_of(unknown), unknown, group[0].range, span=r.span)
-            for unknown, r in zip(_unknowns(group), group, strict=True)
-        )
-    check_coverage(rates, states)
-    named = {name.id for item in bindings for name in _reads(item) if is_unknown(name)}
-    named |= {name.id for r in rates for name in names(r.value) if is_unknown(name)}
-    defined = {u for item in bindings if isinstance(item, LinearSolve) for u in item.unknowns}
-    for k, rate in enumerate(rates):
-        name = derivative_name(rate.state)
-        if name in named - defined:
-            bindings.append(Binding(name, rate.value, rate.range, "part", span=rate.span))
-            at = None if rate.range is None else Index(rate.range.variable)
-            rates[k] = replace(rate, value=Name(name, at, span=rate.span))
-    return bindings, rates
+    matching = Matching(rows)
+    groups = [[_known_aside(rows[k], matching.open[k]) for k in g] for g in matching.match()]
+    systems = [_system(group) for group in groups]
+    known = Constants.of(parameters, definitions)
+    for system, group in zip(systems, groups, strict=True):
+        check_regular(system, known, group)
+    said = [_said(rows[k], unknown) for k, unknown in sorted(matching.said.items())]
+    solved = [
+        rate
+        for system, group in zip(systems, groups, strict=True)
+        for rate in _solved(system, group)
+    ]
+    check_coverage([*said, *solved], states)
+    parts = chain((rate.value for rate in said), *map(_entries, systems))
+    read = {name.id for part in parts for name in names(part) if is_unknown(name)}
+    read.difference_update(*(system.unknowns for system in systems))
+    bindings, rates = _named(said, read, {state.name: state for state in states})
+    return [*systems, *bindings], [*rates, *solved]
 
 
-def _reads(item: Binding | LinearSolve) -> list[Name]:
-    if isinstance(item, Binding):
-        return list(names(item.value))
-    return [name for part in (*item.right, *sum(item.matrix, ())) for name in names(part)]
+def _solved(system: LinearSolve, group: Sequence[Row]) -> Iterator[Rate]:
+    """Yield the rates that a linear system defines."""
+    for unknown, row in zip(system.unknowns, group, strict=True):
+        value = _element(unknown, system.range)
+        yield Rate(state_of(value), value, system.range, span=row.span)
 
 
-def _single(found: Row) -> Rate:
-    unknown, coefficient = found.coefficients[0]
+def _element(name: str, over: IndexRange | None) -> Name:
+    return Name(name, None if over is None else Index(over.variable))
+
+
+def _entries(system: LinearSolve) -> Iterator[Expr]:
+    return chain(system.right, *system.matrix)
+
+
+def _known_aside(found: Row, kept: Sequence[Unknown]) -> Row:
+    """Return a row with the derivatives that other rows say on its right side."""
+    known = [_times(negate(c), u) for u, c in found.coefficients if u not in kept]
+    left = tuple((u, c) for u, c in found.coefficients if u in kept)
+    return replace(found, coefficients=left, right=total((found.right, *known)))
+
+
+def _times(coefficient: Expr, unknown: Unknown) -> Expr:
+    match coefficient:
+        case Call("neg", (inner,)):
+            return negate(scaled_by(inner, unknown))
+    return scaled_by(coefficient, unknown)
+
+
+def _said(found: Row, unknown: Unknown) -> Rate:
+    """Return the rate that a row says, once its other derivatives are known."""
+    _check_elements(found, unknown)
+    row = aligned(_known_aside(found, [unknown]))
+    coefficient = row.coefficients[0][1]
     if is_zero(coefficient):
-        raise refuse("NS113", "the coefficient of `der` is zero", found.span)
-    value = found.right
+        raise refuse("NS113", "the coefficient of `der` is zero", row.span)
+    value = row.right
     if not is_zero(value) and not (isinstance(coefficient, Number) and coefficient.value == 1.0):
-        value = divide(found.right, coefficient)
-    range = found.range
+        value = divide(row.right, coefficient)
+    over = row.range
     if unknown.at is not None and unknown.at.variable is None:
-        k = unknown.at.offset
-        range = IndexRange("i", k, k)
-    return Rate(state_of(unknown), value, range, span=found.span)
+        over = IndexRange("i", unknown.at.offset, unknown.at.offset)
+    return Rate(state_of(unknown), value, over, span=row.span)
 
 
-def _substitute(found: Row, solved: Mapping[Unknown, Rate]) -> Row:
-    right = found.right
-    kept: list[tuple[Unknown, Expr]] = []
-    for unknown, coefficient in found.coefficients:
-        if unknown in solved and solved[unknown].range == found.range:
-            right = add(right, negate(scaled_by(coefficient, unknown)))
-        else:
-            kept.append((unknown, coefficient))
-    if not kept:
-        raise doubled(state_of(found.unknowns[0]), found.span, solved[found.unknowns[0]].span)
-    return replace(found, coefficients=tuple(kept), right=right)
+def _check_elements(found: Row, unknown: Unknown) -> None:
+    if any(other.id == unknown.id and other != unknown for other in found.unknowns):
+        raise _elements_couple(unknown)
+    if found.range is not None and (unknown.at is None or unknown.at.variable is None):
+        raise refuse(
+            "NS108",
+            f"`der({state_of(unknown)})` is given once for each `{found.range.variable}`",
+            found.span,
+            "one equation for each index",
+            help="write it without `for`, with `sum(...)` if it adds up elements",
+        )
 
 
-def _coupled(rows: Sequence[Row]) -> list[list[Row]]:
-    """Group rows that share derivatives."""
-    groups: list[tuple[set[Unknown], list[Row]]] = []
-    for found in rows:
-        mine, together = set(found.unknowns), [found]
-        apart = []
-        for unknowns, members in groups:
-            if unknowns & mine:
-                mine |= unknowns
-                together = members + together
-            else:
-                apart.append((unknowns, members))
-        groups = [*apart, (mine, together)]
-    return [members for _, members in groups]
+def _elements_couple(unknown: Unknown) -> ModelError:
+    return refuse(
+        "NS112",
+        "equations that couple elements of a family cannot be solved",
+        unknown.span,
+        "another element than its row's",
+        help="write the few elements out as states of their own",
+    )
 
 
-def _unknowns(group: Sequence[Row]) -> list[Unknown]:
-    return list(dict.fromkeys(unknown for r in group for unknown in r.unknowns))
+def _named(
+    rates: Sequence[Rate], read: Container[str], states: Mapping[str, State]
+) -> tuple[list[Binding], list[Rate]]:
+    """Give names to the rates that others read; the pieces of a family become one value."""
+    together: dict[str, list[Rate]] = {}
+    for rate in rates:
+        together.setdefault(rate.state, []).append(rate)
+    bindings: list[Binding] = []
+    found: list[Rate] = []
+    for state, pieces in together.items():
+        name = derivative_name(state)
+        if name not in read:
+            found.extend(pieces)
+            continue
+        whole = pieces[0] if len(pieces) == 1 else _whole(pieces, states[state])
+        bindings.append(Binding(name, whole.value, whole.range, "part", span=whole.span))
+        found.append(replace(whole, value=_element(name, whole.range)))
+    return bindings, found
+
+
+def _whole(pieces: Sequence[Rate], state: State) -> Rate:
+    """Return the rate of a whole family as a choice by the index."""
+    assert state.range is not None
+    index = free_index(state.range.variable, (piece.value for piece in pieces))
+    ranges = [(p.range, p) for p in pieces if p.range is not None]
+    parts = sorted((over.last, _value(p, index)) for over, p in ranges if len(over))
+    value = parts[-1][1]
+    for last, part in reversed(parts[:-1]):
+        until = Call("<=", (Index(index), Number(float(last))))
+        value = If(until, part, value, span=part.span)
+    over = IndexRange(index, state.range.first, state.range.last)
+    return Rate(state.name, value, over, span=pieces[0].span)
+
+
+def _value(rate: Rate, index: str) -> Expr:
+    assert rate.range is not None
+    return reindexed(rate.value, rate.range.variable, index)
 
 
 def _system(group: Sequence[Row]) -> LinearSolve:
-    unknowns = _unknowns(group)
-    span = group[0].span
-    if len(unknowns) > len(group):
+    rows = _under_one_index(group)
+    unknowns = list(dict.fromkeys(unknown for row in rows for unknown in row.unknowns))
+    span = rows[0].span
+    if len(unknowns) > len(rows):
         listed = ", ".join(f"`der({state_of(u)})`" for u in unknowns)
+        plural = "s" if len(rows) > 1 else ""
         raise refuse(
             "NS107",
-            f"{len(group)} equations for {len(unknowns)} derivatives: {listed}",
+            f"{len(rows)} equation{plural} for {len(unknowns)} derivatives: {listed}",
             span,
             "coupled here",
-            help="every state has one equation",
+            help="write one equation for each of these states",
         )
-    if len(unknowns) < len(group):
-        raise doubled(state_of(unknowns[-1]), group[-1].span, group[0].span)
-    _check_one_index(group)
+    if len(unknowns) < len(rows):
+        raise doubled(state_of(unknowns[-1]), rows[-1].span, rows[0].span)
     zero = Number(0.0, span=span)
-    matrix = tuple(
-        tuple(dict(r.coefficients).get(unknown, zero) for unknown in unknowns) for r in group
-    )
-    _check_regular(matrix, group)
-    right = tuple(r.right for r in group)
-    return LinearSolve(tuple(u.id for u in unknowns), matrix, right, group[0].range, span=span)
+    entries = [dict(row.coefficients) for row in rows]
+    matrix = tuple(tuple(row.get(unknown, zero) for unknown in unknowns) for row in entries)
+    right = tuple(row.right for row in rows)
+    return LinearSolve(tuple(u.id for u in unknowns), matrix, right, rows[0].range, span=span)
 
 
-def _check_one_index(group: Sequence[Row]) -> None:
-    range = group[0].range
-    for found in group:
-        for unknown in found.unknowns:
-            at = unknown.at
-            fits = at is None if range is None else at == Index(range.variable)
-            if found.range != range or not fits:
-                raise refuse(
-                    "NS112",
-                    "equations that couple elements of a family cannot be solved",
-                    unknown.span,
-                    "another element than its row's",
-                    help="write the few elements out as states of their own",
-                )
+def _under_one_index(group: Sequence[Row]) -> list[Row]:
+    """Return the rows with one name for their index; they must have one range."""
+    over = group[0].range
+    if over is not None:
+        parts = [part for row in group for part in (row.right, *(c for _, c in row.coefficients))]
+        over = IndexRange(free_index(over.variable, parts), over.first, over.last)
+    rows = [_indexed(row, over) for row in group]
+    for row in rows:
+        for unknown in row.unknowns:
+            if row.range != over or unknown != _element(unknown.id, over):
+                raise _elements_couple(unknown)
+    return rows
 
 
-def _check_regular(matrix: tuple[tuple[Expr, ...], ...], group: Sequence[Row]) -> None:
-    for k, entries in enumerate(zip(*matrix, strict=True)):
-        if all(is_zero(entry) for entry in entries):
-            raise refuse("NS113", f"column {k + 1} of the mass matrix is zero", group[0].span)
-    for k, first in enumerate(matrix):
-        for j in range(k):
-            if matrix[j] == first:
-                raise ModelError(
-                    [
-                        Diagnostic(
-                            "NS113",
-                            "the mass matrix is singular: two of its rows are equal",
-                            (
-                                Label(group[k].span, "this row"),
-                                Label(group[j].span, "equals this one"),
-                            ),
-                            help="each equation must say something new about the derivatives",
-                        )
-                    ]
-                )
+def _indexed(row: Row, over: IndexRange | None) -> Row:
+    if row.range is None or over is None:
+        return row
+    old, new = row.range.variable, over.variable
 
+    def moved(expr: Expr) -> Expr:
+        return reindexed(expr, old, new)
 
-def _check_rank(
-    matrix: tuple[tuple[Expr, ...], ...],
-    values: Mapping[str, tuple[float, ...]],
-    group: Sequence[Row],
-) -> None:
-    """Refuse a matrix of parameters alone that is singular at their values."""
-
-    def value(name: str, at: int | None) -> float:
-        return values[name][0]
-
-    read = {name.id for row in matrix for entry in row for name in names(entry)}
-    if not all(len(values.get(name, ())) == 1 for name in read) or group[0].range is not None:
-        return
-    numbers = [[evaluate(entry, value) for entry in row] for row in matrix]
-    if _is_singular(numbers):
-        raise refuse(
-            "NS113",
-            "the mass matrix is singular",
-            group[-1].span,
-            "this row follows from the others",
-            help="each equation must say something new about the derivatives",
-        )
-
-
-def _is_singular(rows: list[list[float]]) -> bool:
-    """Tell whether elimination meets a pivot that is zero up to rounding."""
-    scales = [max(map(abs, row)) for row in rows]
-    for k in range(len(rows)):
-        pivot = max(range(k, len(rows)), key=lambda j: abs(rows[j][k]) / (scales[j] or 1.0))
-        rows[k], rows[pivot] = rows[pivot], rows[k]
-        scales[k], scales[pivot] = scales[pivot], scales[k]
-        if not abs(rows[k][k]) > 1e-14 * scales[k]:
-            return True
-        for j in range(k + 1, len(rows)):
-            factor = rows[j][k] / rows[k][k]
-            rows[j] = [a - factor * b for a, b in zip(rows[j], rows[k], strict=True)]
-    return False
+    return row.changed(moved, IndexRange(new, row.range.first, row.range.last))
