@@ -9,9 +9,12 @@ from pathlib import Path
 
 import pytest
 
-import nsode
 from nsode.diagnostics import Diagnostic, ModelError
+from nsode.evaluate import evaluate
+from nsode.inclusion import build
 from nsode.ode import Binding, DifferentialInclusion
+from nsode.source import Source
+from nsode.syntax import parse
 from support import MODELS
 
 HEAD = """\
@@ -28,13 +31,13 @@ REST = "M*der(v) = -k*x\n"
 
 
 def inclusion(text: str) -> DifferentialInclusion:
-    return nsode.loads(text).inclusion
+    return build(parse(Source("model.di", text)))[0]
 
 
 def misfits(text: str) -> list[Diagnostic]:
     """Return the errors of a model, which are all about units."""
     try:
-        nsode.loads(text)
+        inclusion(text)
     except ModelError as error:
         errors = [d for d in error.diagnostics if d.severity == "error"]
         assert {d.code for d in errors} <= {"NS114", "NS115"}
@@ -232,10 +235,33 @@ approximate N: K = 1e4 {N/m}, alpha = 1 {ms}, beta = 2 {ms}
 
 def test_families_are_checked_and_converted() -> None:
     assert misfits(FAMILY) == []
-    model = nsode.loads(FAMILY)
-    assert [p.values for p in model.ode.parameters if p.name == "d"] == [(0.002,)]
+    assert [p.values for p in inclusion(FAMILY).parameters if p.name == "d"] == [(0.002,)]
     [(message, _)] = marked(FAMILY.replace("k*(x[i]", "(x[i]"))
     assert message == "`N` and `mm` cannot be added"
+
+
+@pytest.mark.parametrize(
+    ("declaration", "values"),
+    [("3*i {mm}", [0.003, 0.006]), ("[5, 7] {mm}", [0.005, 0.007]), ("2 {mm}", [0.002, 0.002])],
+)
+def test_values_of_families_are_converted(declaration: str, values: list[float]) -> None:
+    text = f"""\
+model row
+parameter a[i in 1..2] = {declaration}
+state x[i in 1..2] = {declaration}
+let y[i in 1..2] = {declaration}
+for i in 1..2: der(x[i]) = (y[i] - a[i])/t
+"""
+    found = inclusion(text)
+    [state], [parameter], [binding] = found.states, found.parameters, found.bindings
+    assert isinstance(binding, Binding)
+    for expr in (state.initial, binding.value):
+        assert [evaluate(expr, no_names, {"i": i}) for i in (1, 2)] == values
+    assert list(parameter.values * (2 // len(parameter.values))) == values
+
+
+def no_names(name: str, at: int | None) -> float:
+    raise AssertionError(name)
 
 
 def test_coupled_equations_are_checked_row_by_row() -> None:

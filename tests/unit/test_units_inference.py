@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from nsode.expr import FUNCTIONS, Call, Expr, If, Index, IndexRange, Name, Number, Sum, add
 from nsode.inclusion.units.dimension import ONE
 from nsode.inclusion.units.inference import Inference
-from nsode.inclusion.units.quantity import TIME, UNKNOWN, Quantity
+from nsode.inclusion.units.quantity import CLOCK, UNKNOWN, Quantity
 from nsode.inclusion.units.reading import measure
 from nsode.source import Span
 from nsode.syntax.ast import Unit
@@ -41,7 +41,7 @@ def call(function: str, *args: Expr) -> Expr:
 
 def infer(expr: Expr) -> tuple[Quantity, list[str]]:
     """Return what is known of an expression, and the messages on the way."""
-    found = Inference({**KNOWN, "t": TIME}, {})
+    found = Inference({**KNOWN, "t": CLOCK}, {})
     quantity = found.of(expr)
     return quantity, [problem.message for problem in found.found.values()]
 

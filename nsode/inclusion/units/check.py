@@ -13,8 +13,7 @@ from nsode.inclusion.units.declared import Declared, any_unit, declared_units, s
 from nsode.inclusion.units.dimension import SECOND
 from nsode.inclusion.units.elements import check_element
 from nsode.inclusion.units.inference import Inference, head
-from nsode.inclusion.units.quantity import TIME as SECONDS
-from nsode.inclusion.units.quantity import UNKNOWN, Quantity, over, times
+from nsode.inclusion.units.quantity import CLOCK, UNKNOWN, Quantity, over, times
 from nsode.inclusion.units.values import check_value
 from nsode.inclusion.values import is_zero
 from nsode.ode import (
@@ -54,7 +53,7 @@ def check_units(
 
 
 def _inference(inclusion: DifferentialInclusion, declared: Declared) -> Inference:
-    known = {TIME: SECONDS}
+    known = {TIME: CLOCK}
     items: list[Placed] = [*inclusion.parameters, *inclusion.inputs, *inclusion.states]
     for item in items:
         unit = declared.of(item.name)

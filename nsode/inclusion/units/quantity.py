@@ -34,7 +34,7 @@ class Quantity(NamedTuple):
 UNKNOWN = Quantity(None)
 FITTING = Quantity(None, flexible=True)
 NUMBER = Quantity(ONE, flexible=True)
-TIME = Quantity(SECOND, flexible=True)
+CLOCK = Quantity(SECOND, flexible=True)
 DIMENSIONLESS = Quantity(ONE)
 
 
