@@ -159,8 +159,28 @@ def test_a_constant_fits_its_element(setting: str, message: str, places: list[st
 
 
 @pytest.mark.parametrize(
+    ("law", "constants"),
+    [
+        ("N with kelvin_voigt", {"K": "N/m", "B": "N*s/m"}),
+        ("N with clipped_kelvin_voigt", {"K": "N/m", "B": "N*s/m"}),
+        ("N with hunt_crossley", {"c": "s/m", "n": "1"}),
+        ("F with lugre", {"K": "N/m", "B": "N*s/m", "D": "N*s/m", "F0": "N"}),
+        ("F with smoothing", {"epsilon": "m/s"}),
+    ],
+)
+def test_constants_of_other_laws_fit_too(law: str, constants: dict[str, str]) -> None:
+    """The units of the laws as published, for a force in N, a gap in m and a speed in m/s."""
+    for name, unit in constants.items():
+        text = f"{HEAD}{APPROXIMATE}approximate {law}: {name} = 1 "
+        assert misfits(f"{text}{{{unit}}}\n") == []
+        assert len(misfits(f"{text}{{{unit}*A}}\n")) == 1
+
+
+@pytest.mark.parametrize(
     "settings",
     [
+        "N: restitution = 0.5, impact_speed = 3 {m/s}, penetration = 1 {mm}, effective_mass = M",
+        "F: presliding = 1e-5 {m}, damping_ratio = 0.8 {1}, effective_mass = 2 {kg}",
         "N: K = 1 {kg/s^2}, alpha = 1 {ms}, beta = 2 {ms}",
         "N: K = 2*k {kN/m}",
         "F: K = N.K {N/m}, beta = N.beta",

@@ -34,19 +34,26 @@ _TARGETS: _Table = {
         "effective_mass": _Powers(force=1, argument=-1, time=1),
     },
 }
-#: What each law's constants measure. Those of a law without an entry are not checked.
+_TIME = _Powers(time=1)
+_SPRING = _Powers(force=1, argument=-1)
+_DAMPER = _Powers(force=1, argument=-1, time=1)
+_BRISTLE = _Powers(force=1, argument=-1, time=-1)
+_FRICTION = _Powers(force=1, argument=-1)
+_KELVIN_VOIGT = {"dio": {"K": _SPRING, "B": _DAMPER}}
+#: What the constants of each law measure; any other, such as Hunt and Crossley's K,
+#: whose unit depends on n, is not checked.
 _CONSTANTS: Mapping[str, _Table] = {
     "xiong2013": {
-        "dio": {
-            "K": _Powers(force=1, argument=-1),
-            "alpha": _Powers(time=1),
-            "beta": _Powers(time=1),
-        },
-        "sgn": {
-            "K": _Powers(force=1, argument=-1, time=-1),
-            "beta": _Powers(time=1),
-        },
+        "dio": {"K": _SPRING, "alpha": _TIME, "beta": _TIME},
+        "sgn": {"K": _BRISTLE, "beta": _TIME},
     },
+    "kelvin_voigt": _KELVIN_VOIGT,
+    "clipped_kelvin_voigt": _KELVIN_VOIGT,
+    "hunt_crossley": {"dio": {"c": _Powers(argument=-1, time=1), "n": _Powers()}},
+    "lugre": {
+        "sgn": {"K": _BRISTLE, "B": _FRICTION, "D": _FRICTION, "F0": _Powers(force=1)},
+    },
+    "smoothing": {"sgn": {"epsilon": _Powers(argument=1)}},
 }
 
 
