@@ -134,6 +134,23 @@ class Model:
 
         return replace(self, ode=prune(self.ode, outputs))
 
+    def baked(self, values: Mapping[str, float]) -> Model:
+        """Return the model with some parameters as numbers, for good.
+
+        Raises
+        ------
+        ModelError
+            As :meth:`with_parameters`; NS101 for a name that is no scalar parameter.
+        """
+        from nsode.passes.bake import bake
+
+        chosen = self.with_parameters(values)
+        try:
+            return replace(chosen, ode=bake(chosen.ode, values))
+        except KeyError as error:
+            message = f"{error} is no scalar parameter: only these can be baked"
+            raise ModelError([Diagnostic("NS101", message)], self.source) from None
+
     def casadi(self, method: str = "rk4") -> CasadiModel:
         """Return CasADi functions ``rhs``, ``out``, ``step`` and ``init``; needs casadi.
 

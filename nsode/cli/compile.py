@@ -14,6 +14,7 @@ from nsode.cli.model import load, summary
 from nsode.cli.terminal import bold, complain, quiet, say
 from nsode.files import write_all
 from nsode.ode import AugmentedODE
+from nsode.passes.count import operations
 
 if TYPE_CHECKING:
     from nsode.compiler import Model
@@ -35,6 +36,21 @@ def _names(
     return None if value is None else [name.strip() for name in value.split(",")]
 
 
+def _numbers(
+    context: click.Context, parameter: click.Parameter, value: tuple[str, ...]
+) -> dict[str, float]:
+    found: dict[str, float] = {}
+    for item in value:
+        name, equals, number = item.partition("=")
+        try:
+            found[name.strip()] = float(number)
+        except ValueError:
+            equals = ""
+        if not equals:
+            raise click.BadParameter(f"`{item}` is not NAME=NUMBER")
+    return found
+
+
 @click.command()
 @click.argument("model")
 @click.option(
@@ -54,6 +70,10 @@ def _names(
     "--outputs", callback=_names, metavar="NAMES",
     help="Keep only what these outputs and states, such as p,v, depend on.",
 )  # fmt: skip
+@click.option(
+    "--bake", callback=_numbers, multiple=True, metavar="NAME=NUMBER",
+    help="Write a parameter as this number, in SI, for good; may be repeated.",
+)  # fmt: skip
 def command(
     model: str,
     target: str,
@@ -61,6 +81,7 @@ def command(
     real: str,
     prefix: str | None,
     outputs: list[str] | None,
+    bake: dict[str, float],
 ) -> int:
     """Write MODEL as code that integrates.
 
@@ -72,13 +93,15 @@ def command(
     whole = loaded.ode
     if outputs is not None:
         loaded = _only(loaded, outputs)
+    if bake:
+        loaded = loaded.baked(bake)
     options = Options(prefix=prefix, real=cast(Literal["double", "float"], real))
     try:
         paths = write_all(loaded.emit(target, options), folder)
     except OSError as error:
         complain([io_diagnostic("NS602", error)])
         return USAGE
-    say(f"{bold(loaded.name)}: {summary(loaded)}")
+    say(f"{bold(loaded.name)}: {summary(loaded)}, {operations(loaded.ode):,} operations")
     _show_dropped(whole, loaded.ode)
     _show(paths)
     return 0
