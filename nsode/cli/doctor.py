@@ -23,7 +23,7 @@ OPTIONAL = {
     "casadi": ("-t casadi, optimization, CVODES", "pip install 'nsode[casadi]'"),
     "sympy": ("symbols to explore", "pip install 'nsode[sympy]'"),
     "pint": ("checks units", "pip install 'nsode[units]'"),
-    "scipy": ("its integrators", "pip install scipy"),
+    "scipy": ("its integrators", "pip install 'nsode[scipy]'"),
     "matplotlib": ("plots", "pip install 'nsode[plot]'"),
 }
 COMPILERS = {

@@ -20,6 +20,7 @@ EXTRAS = {
     "casadi": "casadi",
     "sympy": "sympy",
     "pint": "units",
+    "scipy": "scipy",
     "matplotlib": "plot",
 }
 
