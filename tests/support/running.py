@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from nsode.evaluate import apply, position
 from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum
-from nsode.ode import AugmentedODE, Binding, LinearSolve, layout, size
+from nsode.ode import AugmentedODE, Binding, LinearSolve, Output, Placed, Rate, layout, size
 
 
 class Running(NamedTuple):
@@ -58,13 +58,22 @@ class Tracer:
 
     def rhs(self) -> tuple[NDArray, NDArray]:
         """Return the rates and their scales."""
-        slots = layout(self.ode.states)
-        found = [Running(np.nan, np.nan)] * sum(map(size, self.ode.states))
-        for rate in self.ode.rates:
-            offset, whole = slots[rate.state]
-            for k in _indices(rate):
+        return self._column(self.ode.states, [(r.state, r) for r in self.ode.rates])
+
+    def out(self) -> tuple[NDArray, NDArray]:
+        """Return the outputs and their scales."""
+        return self._column(self.ode.outputs, [(y.name, y) for y in self.ode.outputs])
+
+    def _column(
+        self, places: Sequence[Placed], items: Sequence[tuple[str, Rate | Output]]
+    ) -> tuple[NDArray, NDArray]:
+        slots = layout(places)
+        found = [Running(np.nan, np.nan)] * sum(map(size, places))
+        for name, item in items:
+            offset, whole = slots[name]
+            for k in _indices(item):
                 place = offset if whole is None or k is None else offset + k - whole.first
-                found[place] = self.expr(rate.value, _at(rate, k))
+                found[place] = self.expr(item.value, _at(item, k))
         return np.array([r.value for r in found]), np.array([r.scale for r in found])
 
     def _define(self, item: Binding | LinearSolve) -> None:

@@ -1,0 +1,107 @@
+"""C, NumPy and CasADi give one right-hand side, to 4 eps of the running term scale.
+
+``NSODE_THOROUGH=1`` runs ten thousand random models instead of a dozen.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import nsode
+from nsode.ode import AugmentedODE, element_names
+from support.models import PATHS
+from support.modules import load_module
+from support.odes import Maker
+from support.running import Tracer
+
+EPS = np.finfo(float).eps
+SEEDS = 10_000 if os.environ.get("NSODE_THOROUGH") else 12
+
+Rates = Callable[[float, NDArray, NDArray, NDArray], NDArray]
+
+
+def through_c(ode: AugmentedODE, compile_c: Callable) -> Rates:
+    return compile_c(ode).rhs
+
+
+def through_numpy(ode: AugmentedODE, compile_c: Callable) -> Rates:
+    return load_module(ode).rhs
+
+
+def through_casadi(ode: AugmentedODE, compile_c: Callable) -> Rates:
+    pytest.importorskip("casadi")
+    from nsode.backends.casadi import functions
+
+    rhs = functions(ode).rhs
+    return lambda t, x, u, p: np.array(rhs(t, x, u, p)).reshape(-1)
+
+
+BACKENDS = [through_c, through_numpy, through_casadi]
+
+
+def points(ode: AugmentedODE, count: int) -> list[tuple[float, NDArray, NDArray, NDArray]]:
+    """Return where to compare: near the start and far from it, pressed, free and at rest."""
+    rng = np.random.default_rng(7)
+    module = load_module(ode)
+    start, u = module.init(), np.nan_to_num(module.u0)
+    found = [(0.0, start, u, module.p0), (0.5, 0 * start, u, module.p0)]
+    for k in range(count):
+        x = start + rng.normal(size=start.size) * 10.0 ** rng.integers(-6, 1)
+        p = module.p0 * rng.uniform(0.9, 1.1, size=module.p0.size)
+        found.append((0.1 * k, x, u + rng.normal(size=u.size), p))
+    return found
+
+
+def assert_agrees(ode: AugmentedODE, rates: Rates, count: int) -> None:
+    for t, x, u, p in points(ode, count):
+        expected, scale = Tracer(ode, t, x, u, p).rhs()
+        assert np.all(np.isfinite(expected)), element_names(ode.states)
+        error = np.abs(rates(t, x, u, p) - expected)
+        worst = int(np.argmax(error - 4 * EPS * scale))
+        assert error[worst] <= 4 * EPS * scale[worst], (element_names(ode.states)[worst], t, x, p)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
+def test_shipped_models_have_one_right_hand_side(path, backend, compile_c):
+    ode = nsode.load(path).ode
+    assert_agrees(ode, backend(ode, compile_c), 12)
+
+
+@pytest.mark.parametrize("seed", range(SEEDS))
+def test_random_models_have_one_right_hand_side(seed, compile_c):
+    ode = Maker(seed, depth=3).make()
+    for backend in BACKENDS:
+        assert_agrees(ode, backend(ode, compile_c), 3)
+
+
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
+def test_outputs_starts_and_steps_of_c_and_numpy_agree(path, compile_c):
+    ode = nsode.load(path).ode
+    native, module = compile_c(ode), load_module(ode)
+    np.testing.assert_array_equal(module.init(), native.init())
+    np.testing.assert_array_equal(module.p0, native.p0)
+    h = 1e-6  # so small that a stage adds nothing to the error of the one before
+    for t, x, u, p in points(ode, 5):
+        traced = Tracer(ode, t, x, u, p)
+        expected, scale = traced.out()
+        for outputs in (native.out(t, x, u, p), module.out(t, x, u, p)):
+            assert np.all(np.abs(outputs - expected) <= 4 * EPS * scale)
+        for method in ("rk4", "heun", "euler"):
+            stepped = native.step(t, h, x, u, p, method=method)
+            found = getattr(module, f"step_{method}")(t, h, x, u, p)
+            after = Tracer(ode, t + h, stepped, u, p).rhs()[1]
+            bound = 4 * EPS * (np.abs(x) + h * np.maximum(traced.rhs()[1], after))
+            assert np.all(np.abs(found - stepped) <= bound), method
+
+
+def test_the_comparison_can_fail(compile_c):
+    ode = Maker(0).make()
+    rates = through_numpy(ode, compile_c)
+    with pytest.raises(AssertionError):
+        assert_agrees(ode, lambda t, x, u, p: rates(t, x, u, p) * (1 + 1e-12), 3)
