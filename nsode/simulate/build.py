@@ -29,7 +29,7 @@ _FLAGS = (
     "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared", "-w",
     f"-D{PREFIX}_CHECKS",
 )  # fmt: skip
-_FAST = (*_FLAGS, "-O3", "-fno-semantic-interposition", "-fno-tree-slp-vectorize")
+FAST = (*_FLAGS, "-O3", "-fno-semantic-interposition", "-fno-tree-slp-vectorize")
 _COMPILERS = ("cc", "gcc", "clang", "tcc")
 _PATIENCE = 600  # seconds for one compilation
 
@@ -54,30 +54,34 @@ def compiler() -> Compiler | None:
     return None
 
 
-def library(ode: AugmentedODE, using: Compiler) -> Path:
-    """Return the compiled library of a model, from the cache if it is there.
+def library(ode: AugmentedODE, method: str, using: Compiler) -> Path:
+    """Return the compiled library of a model and a method, from the cache if it is there.
 
     Raises
     ------
     ModelError
         NS509 if the compiler fails, NS510 if the cache is not safe.
     """
-    texts = sources(ode)
-    flags = (*_FAST, "-march=native") if _processor() else _FAST
+    texts = sources(ode, method)
+    flags = (*FAST, "-march=native") if _processor() else FAST
     made_of = [using.identity, _processor(), *flags, *texts, *texts.values()]
     key = sha256("\0".join(made_of).encode()).hexdigest()[:32]
     return cache.obtain(key, lambda folder: _compile(texts, folder, using, flags))
 
 
-def sources(ode: AugmentedODE) -> dict[str, str]:
+def sources(ode: AugmentedODE, method: str) -> dict[str, str]:
     """Return the C of a model and the loop around it, by file name."""
     texts = emit("c", ode, Options(prefix=PREFIX))
-    steps = ", ".join(f"{PREFIX}_step_{method}" for method in REGISTRY)
+    steps = "".join(
+        f"static int {PREFIX}_step_{name}"
+        "(double t, double h, double *x, const double *u, const double *p);\n"
+        for name in REGISTRY
+    )
     loop = files("nsode.simulate").joinpath("run.c").read_text(encoding="utf-8")
     return {
         f"{PREFIX}.h": texts[f"{PREFIX}.h"],
         f"{PREFIX}.c": texts[f"{PREFIX}.c"],
-        "run.c": f"#define STEPS {steps}\n{loop}",
+        "run.c": f"#define STEP {PREFIX}_step_{method}\n{steps}{loop}",
     }
 
 

@@ -31,9 +31,7 @@ class Inputs:
     varying: tuple[tuple[int, Callable[[Vector], Vector]], ...]
 
     def rows(self, times: Vector) -> Vector:
-        """Return u at some times, one row each; a single row if nothing varies."""
-        if not self.varying:
-            return self.constant[None, :]
+        """Return u at some times, one row each."""
         rows = np.tile(self.constant, (len(times), 1))
         for place, signal in self.varying:
             rows[:, place] = signal(times)

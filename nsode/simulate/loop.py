@@ -65,14 +65,17 @@ def record(
     xs[0] = start
     ys[0] = native.outputs(settings.start, x, inputs.at(settings.start), p)
     taken, status, interrupted, chunk = 0, OK, False, _FIRST
+    held = inputs.constant[None, :]
     begin = before = time.perf_counter()
     try:
         while taken < settings.steps and status == OK:
             count = min(chunk, settings.steps - taken)
-            u = inputs.rows(instants(settings, np.arange(taken, taken + count + 1)))
+            u = held
+            if inputs.varying:
+                u = inputs.rows(instants(settings, np.arange(taken, taken + count + 1)))
             row = taken // settings.every + 1
             advance = native.run(
-                settings.method, (settings.start, settings.step),
+                (settings.start, settings.step),
                 taken, count, settings.every, x, u, p, xs[row:], ys[row:],
             )  # fmt: skip
             taken, status = taken + advance.done, advance.status

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import ctypes
-from ctypes import POINTER, c_double, c_int, c_longlong
+from ctypes import POINTER, c_double, c_longlong
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nsode.integrators import REGISTRY
 from nsode.ode import AugmentedODE, size
 from nsode.simulate.build import PREFIX
 
 Vector = NDArray[np.float64]
 
 _reals = POINTER(c_double)
-_METHODS = {name: number for number, name in enumerate(REGISTRY)}
 
 #: Status codes of the generated C; see its header.
 OK, NOT_FINITE, SINGULAR, BROKEN = 0, 1, 2, 16
@@ -60,7 +58,6 @@ class Native:
 
     def run(
         self,
-        method: str,
         clock: tuple[float, float],
         first: int,
         count: int,
@@ -80,7 +77,7 @@ class Native:
         stride = u.shape[1] if len(u) > 1 else 0
         start, step = clock
         status = self._function("run")(
-            c_int(_METHODS[method]), c_double(start), c_double(step),
+            c_double(start), c_double(step),
             c_longlong(first), c_longlong(count), c_longlong(every),
             _pointer(x), _pointer(u), c_longlong(stride), _pointer(p),
             _pointer(xs), _pointer(ys), ctypes.byref(done),

@@ -27,12 +27,12 @@ class Scene:
     foreseen: dict[Foreseen, tuple[Diagnostic, ...]] = field(default_factory=dict)
 
 
-_Key = tuple[int, int]
+_Key = tuple[int, int, str]
 _known: OrderedDict[_Key, tuple[DifferentialInclusion, AugmentedODE, Scene]] = OrderedDict()
 
 
-def scene(inclusion: DifferentialInclusion, ode: AugmentedODE) -> Scene:
-    """Return a model ready to run; at once if it ran before in this process.
+def scene(inclusion: DifferentialInclusion, ode: AugmentedODE, method: str) -> Scene:
+    """Return a model ready to run by a method; at once if it did before in this process.
 
     Raises
     ------
@@ -50,17 +50,19 @@ def scene(inclusion: DifferentialInclusion, ode: AugmentedODE) -> Scene:
                 )
             ]
         )
-    key = (id(inclusion), id(ode))
+    key = (id(inclusion), id(ode), method)
     found = _known.get(key)
     if found is None or found[2].compiler != using:
         # The table holds the model itself, so that nothing else can take over its id.
-        found = (inclusion, ode, _made(inclusion, ode, using))
+        found = (inclusion, ode, _made(inclusion, ode, method, using))
         _known[key] = found
         if len(_known) > _KEPT:
             _known.popitem(last=False)
     return found[2]
 
 
-def _made(inclusion: DifferentialInclusion, ode: AugmentedODE, using: Compiler) -> Scene:
+def _made(
+    inclusion: DifferentialInclusion, ode: AugmentedODE, method: str, using: Compiler
+) -> Scene:
     observed = observe(inclusion, ode)
-    return Scene(observed, load(observed.ode, library(observed.ode, using)), using)
+    return Scene(observed, load(observed.ode, library(observed.ode, method, using)), using)

@@ -104,7 +104,7 @@ def simulate(
     p = parameters.parameters(ode, overrides or {})
     settings, remarks = settle(wish, ode.run, _columns(ode))
     given = inputs(ode, signals or {}, settings)
-    made = scene(inclusion, ode)
+    made = scene(inclusion, ode, settings.method)
     _say([*remarks, *_foreseen(made, inclusion, ode, settings, p)], manner, ode)
     x0 = made.native.initial(p if len(p) else np.zeros(1))
     parameters.states(ode, x0, start or {})

@@ -1,4 +1,4 @@
-"""How fast nsode and what it writes are: ``python tests/bench [steps|scenes|families|start]``.
+"""How fast nsode and what it writes are: ``python tests/bench [steps|runs|scenes|families|start]``.
 
 Never part of the tests: a number measured on a busy machine proves nothing.
 """
@@ -12,12 +12,14 @@ from pathlib import Path
 sys.path.insert(1, str(Path(__file__).parents[1]))  # for `support`, as pytest has it
 
 import families
+import runs
 import scenes
 import start
 import steps
 
 PARTS = {
     "steps": steps.main,
+    "runs": runs.main,
     "scenes": scenes.main,
     "families": families.main,
     "start": start.main,
