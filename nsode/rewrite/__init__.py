@@ -7,9 +7,10 @@ the e's, then the a's. The result is the paper's (32).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from nsode.expr import Expr
 from nsode.ode import (
     AugmentedODE,
     AuxiliaryState,
@@ -21,6 +22,8 @@ from nsode.ode import (
 )
 from nsode.regularizations import law
 from nsode.rewrite.constants import constants, guards
+from nsode.rewrite.refusals import check_laws
+from nsode.rewrite.velocities import with_velocities
 
 __all__ = ["rewrite"]
 
@@ -31,10 +34,13 @@ def rewrite(inclusion: DifferentialInclusion) -> AugmentedODE:
     Raises
     ------
     ModelError
-        NS301 to NS308 for constants that a law cannot use.
+        NS301 to NS308 for constants that a law cannot use, and for terms that a law
+        cannot represent.
     """
     parameters = constants(inclusion)
-    without_dio, deformations = replace_terms(inclusion, "dio")
+    check_laws(inclusion)
+    differentiated, velocities = with_velocities(inclusion)
+    without_dio, deformations = replace_terms(differentiated, "dio", velocities)
     single_valued, displacements = replace_terms(without_dio, "sgn")
     single_valued = replace(
         single_valued,
@@ -45,7 +51,7 @@ def rewrite(inclusion: DifferentialInclusion) -> AugmentedODE:
 
 
 def replace_terms(
-    inclusion: DifferentialInclusion, kind: str
+    inclusion: DifferentialInclusion, kind: str, velocities: Mapping[str, Expr] = {}
 ) -> tuple[DifferentialInclusion, list[AuxiliaryState]]:
     """Replace the terms of one kind, steps 1 and 2; return their auxiliary states too."""
     bindings: list[Definition] = []
@@ -53,7 +59,7 @@ def replace_terms(
     for item in inclusion.bindings:
         if isinstance(item, SetValuedTerm) and item.kind == kind:
             text = " ".join(inclusion.source.slice(item.span).split())
-            replacement = law(item.approximation.law).replace(item, text)
+            replacement = law(item.approximation.law).replace(item, text, velocities.get(item.name))
             bindings.extend(replacement.bindings)
             states.extend(replacement.states)
         else:

@@ -1,15 +1,16 @@
-"""K, alpha and beta become parameters of the ODE, so that they can be swept."""
+"""The constants of the laws become parameters of the ODE, so that they can be swept."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
 from nsode.evaluate import evaluate
 from nsode.expr import Call, Expr, Name, Number, names
-from nsode.ode import Check, DifferentialInclusion, Parameter, SetValuedTerm
-from nsode.regularizations import LAWS, law
+from nsode.ode import Approximation, Check, DifferentialInclusion, Parameter, SetValuedTerm
+from nsode.regularizations import LAWS, Condition, Constant, law, laws_of
+from nsode.rewrite.fixed import Fixed
 
 
 def constants(inclusion: DifferentialInclusion) -> tuple[Parameter, ...]:
@@ -23,27 +24,30 @@ def constants(inclusion: DifferentialInclusion) -> tuple[Parameter, ...]:
     """
     formulas: dict[str, Expr | None] = {}
     owners: dict[str, SetValuedTerm] = {}
+    terms: list[SetValuedTerm] = []
     problems: list[Diagnostic] = []
+    fixed = Fixed.of(inclusion)
     for term in _by_kind(inclusion):
         try:
             given = _given(term)
         except ModelError as error:
             problems.extend(error.diagnostics)
             continue
-        for name in law(term.approximation.law).constants(term):
-            formulas[f"{term.name}.{name}"] = given.get(name)
-            owners[f"{term.name}.{name}"] = term
+        terms.append(term)
+        for constant in needed(term):
+            name = f"{term.name}.{constant.name}"
+            formulas[name] = given.get(constant.name, fixed.formula(constant.default))
+            owners[name] = term
     values = {p.name: p.values[0] for p in inclusion.parameters if len(p.values) == 1}
     found: list[Parameter] = []
     for name, formula in formulas.items():
         value = math.nan if formula is None else _value(name, formulas, values, ())
-        problems.extend(_positive(name, value, formula))
         read = formula if formula is not None and any(True for _ in names(formula)) else None
         span = owners[name].span if formula is None else formula.span
         found.append(
             Parameter(name, (value,), formula=read, constant_of=owners[name].name, span=span)
         )
-    problems.extend(_ordered(found, formulas))
+    problems.extend(_broken(terms, found, formulas))
     if problems:
         raise ModelError(dict.fromkeys(problems), inclusion.source)
     return tuple(found)
@@ -51,16 +55,17 @@ def constants(inclusion: DifferentialInclusion) -> tuple[Parameter, ...]:
 
 def guards(inclusion: DifferentialInclusion) -> Iterator[Check]:
     """Yield what the constants must satisfy, also when they are overridden."""
-    for term in _by_kind(inclusion):
-        needed = law(term.approximation.law).constants(term)
-        for name in needed:
-            positive = Call(">", (Name(f"{term.name}.{name}"), Number(0.0)), span=term.span)
-            yield Check("bound", positive, reason=f"{name} > 0", span=term.span)
-        if "alpha" in needed:
-            alpha, beta = Name(f"{term.name}.alpha"), Name(f"{term.name}.beta")
-            passive = Call("<=", (alpha, beta), span=term.span)
-            reason = "alpha > beta creates energy"
-            yield Check("bound", passive, reason=reason, span=term.span)
+    for term, constant, (relation, bound, why) in _conditions(_by_kind(inclusion)):
+        other = Name(f"{term.name}.{bound}") if isinstance(bound, str) else Number(bound)
+        holds = Call(relation, (Name(f"{term.name}.{constant.name}"), other), span=term.span)
+        shown = bound if isinstance(bound, str) else f"{bound:g}"
+        reason = f"{constant.name} {relation} {shown}: {why}"
+        yield Check("bound", holds, reason=reason, span=term.span)
+
+
+def needed(term: SetValuedTerm) -> tuple[Constant, ...]:
+    """Return the constants that the law of a term needs."""
+    return law(term.approximation.law).constants(term)
 
 
 def _by_kind(inclusion: DifferentialInclusion) -> list[SetValuedTerm]:
@@ -70,22 +75,17 @@ def _by_kind(inclusion: DifferentialInclusion) -> list[SetValuedTerm]:
 
 def _given(term: SetValuedTerm) -> Mapping[str, Expr]:
     approximation = term.approximation
-    if approximation.law not in LAWS:
-        raise refuse(
-            "NS306",
-            f"there is no law `{approximation.law}`",
-            approximation.span,
-            help=suggest(approximation.law, LAWS) or "the laws are " + ", ".join(LAWS),
-        )
-    known = law(approximation.law).constants(term)
+    _check_law(term)
+    known = [constant.name for constant in needed(term)]
     for name, value in approximation.constants:
         if name not in known:
             listed = ", ".join(f"`{constant}`" for constant in known)
+            usual = approximation.law == Approximation().law
             raise ModelError(
                 [
                     Diagnostic(
                         "NS303",
-                        f"`{term.kind}` has no constant `{name}`",
+                        f"`{term.kind if usual else approximation.law}` has no constant `{name}`",
                         (Label(value.span, f"given for `{term.name}`"),),
                         notes=(f"its constants are {listed}",),
                         help=suggest(name, known),
@@ -100,6 +100,21 @@ def _given(term: SetValuedTerm) -> Mapping[str, Expr]:
             help="give K, beta and, for dio, alpha",
         )
     return dict(approximation.constants)
+
+
+def _check_law(term: SetValuedTerm) -> None:
+    name, able = term.approximation.law, laws_of(term.kind)
+    if name in able:
+        return
+    exists = name in LAWS
+    raise refuse(
+        "NS306",
+        f"`{name}` cannot stand for `{term.kind}`" if exists else f"there is no law `{name}`",
+        term.approximation.span,
+        f"`{term.name}` is a `{term.kind}`" if exists else "",
+        help=(None if exists else suggest(name, LAWS))
+        or f"the laws for `{term.kind}` are " + ", ".join(f"`{other}`" for other in able),
+    )
 
 
 def _value(
@@ -118,44 +133,70 @@ def _value(
     return evaluate(formula, lambda other, at: _value(other, formulas, values, (*inside, name)))
 
 
-def _positive(name: str, value: float, formula: Expr | None) -> list[Diagnostic]:
-    if formula is None or value > 0 or math.isnan(value):
-        return []
-    return [
-        Diagnostic(
-            "NS301",
-            f"`{name}` must be greater than 0",
-            (Label(formula.span, f"this is {value:g}"),),
-            notes=(_why(name),),
-            help="choose a positive value",
-        )
-    ]
-
-
-def _why(name: str) -> str:
-    match name.rpartition(".")[2]:
-        case "alpha":
-            return "alpha = 0 divides by zero"
-        case "beta":
-            return "a negative beta grows without bound"
-    return "it is a stiffness"
-
-
-def _ordered(found: list[Parameter], formulas: Mapping[str, Expr | None]) -> list[Diagnostic]:
+def _broken(
+    terms: Sequence[SetValuedTerm],
+    found: Sequence[Parameter],
+    formulas: Mapping[str, Expr | None],
+) -> Iterator[Diagnostic]:
+    """Yield an error for each condition that the constants of the model break."""
     values = {parameter.name: parameter.values[0] for parameter in found}
-    problems: list[Diagnostic] = []
-    for name, alpha in values.items():
-        head, _, constant = name.rpartition(".")
-        beta = values.get(f"{head}.beta", math.nan)
-        formula, other = formulas[name], formulas.get(f"{head}.beta")
-        if constant == "alpha" and alpha > beta and formula is not None and other is not None:
-            problems.append(
-                Diagnostic(
-                    "NS302",
-                    f"alpha of `{head}` is greater than its beta",
-                    (Label(formula.span, f"{alpha:g}"), Label(other.span, f"{beta:g}")),
-                    notes=("alpha > beta creates energy; alpha = beta is perfectly elastic",),
-                    help="choose alpha <= beta",
-                )
-            )
-    return problems
+    for term, constant, condition in _conditions(terms):
+        name, formula = f"{term.name}.{constant.name}", formulas[f"{term.name}.{constant.name}"]
+        match condition.bound:
+            case str(other):
+                bound, limit = values[f"{term.name}.{other}"], formulas[f"{term.name}.{other}"]
+            case bound:
+                limit = None
+        if formula is None or not _fails(values[name], condition.relation, bound):
+            continue
+        place = Label(formula.span, f"{values[name]:g}")
+        if limit is None:
+            yield _out_of_range(name, condition, place)
+        else:
+            yield _misordered(term, constant, condition, (place, Label(limit.span, f"{bound:g}")))
+
+
+def _conditions(
+    terms: Iterable[SetValuedTerm],
+) -> Iterator[tuple[SetValuedTerm, Constant, Condition]]:
+    for term in terms:
+        for constant in needed(term):
+            for condition in constant.conditions:
+                yield term, constant, condition
+
+
+def _fails(value: float, relation: str, bound: float) -> bool:
+    """Tell whether a relation is broken; what is not known breaks none."""
+    if math.isnan(value) or math.isnan(bound):
+        return False
+    return not evaluate(Call(relation, (Number(value), Number(bound))), _no_names)
+
+
+def _no_names(name: str, at: int | None) -> float:
+    raise AssertionError(name)
+
+
+_WORDS = {">": "must be greater than", ">=": "must be at least", "<=": "must be at most"}
+
+
+def _out_of_range(name: str, condition: Condition, place: Label) -> Diagnostic:
+    relation, bound, why = condition
+    return Diagnostic(
+        "NS301",
+        f"`{name}` {_WORDS[relation]} {bound:g}",
+        (Label(place.span, f"this is {place.text}"),),
+        notes=(why,),
+        help="choose a positive value" if (relation, bound) == (">", 0.0) else None,
+    )
+
+
+def _misordered(
+    term: SetValuedTerm, constant: Constant, condition: Condition, labels: tuple[Label, Label]
+) -> Diagnostic:
+    return Diagnostic(
+        "NS302",
+        f"{constant.name} of `{term.name}` is greater than its {condition.bound}",
+        labels,
+        notes=(condition.why,),
+        help=f"choose {constant.name} {condition.relation} {condition.bound}",
+    )
