@@ -17,15 +17,18 @@ from nsode.analysis.report import active_text
 from nsode.analysis.result import Analysis, Unstable
 from nsode.analysis.stability import bound, half_disc
 from nsode.analysis.steps import Reachable, StableStep, reachable, stable_steps
-from nsode.diagnostics import Diagnostic, Label
+from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.integrators import REGISTRY, Scheme
 from nsode.ode import AugmentedODE, DifferentialInclusion, size
 
 #: States and multipliers beyond which a step is not checked on every compile.
 LARGE = 300
+#: States and multipliers beyond which the matrices of an analysis take minutes.
+LARGEST = 600
 #: Active sets beyond which a compile searches among them instead.
 FEW_SETS = 256
 
+_UNDEFINED = "the rates or their derivatives are not finite at the start"
 _RESONANCE = "a load near {0:.3g} rad/s is amplified while it sticks"
 
 
@@ -50,9 +53,19 @@ def analyze(
         In m/s; None takes the first impact from the start.
     schemes : mapping of str to Scheme, optional
         The methods; None takes all.
+
+    Raises
+    ------
+    ModelError
+        NS014 where there are more than :data:`LARGEST` states and multipliers, NS406
+        where the start has no finite rates and derivatives.
     """
+    _refuse_large(inclusion)
     scene = Scene(inclusion, [p for p in ode.parameters if p.constant_of is not None])
-    local, mass, load = _at_start(scene)
+    begin = _at_start(scene)
+    if begin is None:
+        raise ModelError([Diagnostic("NS406", _UNDEFINED)], inclusion.source)
+    local, mass, load = begin
     states = [np.asarray(x, dtype=float)[: len(scene.state_names)] for x in along]
     places = [reachable(scene, local)]
     places += [
@@ -89,12 +102,13 @@ def warnings(inclusion: DifferentialInclusion) -> tuple[Diagnostic, ...]:
     Quick: it looks at the model's own method only, and at the sets only where a proven bound
     does not already allow the step. Large models are left out.
     """
-    places = sum(map(size, inclusion.states))
-    places += sum(size(term) * len(term.multiplier) for term in inclusion.terms)
-    if not inclusion.terms or places > LARGE:
+    if not inclusion.terms or _places(inclusion) > LARGE:
         return ()
     scene = Scene(inclusion)
-    local, mass, _ = _at_start(scene)
+    begin = _at_start(scene)
+    if begin is None:
+        return ()
+    local, mass, _ = begin
     found = feeding(scene, mass)
     method, step = inclusion.run.method or "rk4", inclusion.run.step
     if step is None or method not in REGISTRY or not _is_known(scene):
@@ -106,9 +120,28 @@ def warnings(inclusion: DifferentialInclusion) -> tuple[Diagnostic, ...]:
     return tuple(found)
 
 
-def _at_start(scene: Scene) -> tuple[Local, EffectiveMass, list[float]]:
-    """Return the linear model at the start under the load there, W, and that load."""
+def _places(inclusion: DifferentialInclusion) -> int:
+    """Return how many states and multipliers there are."""
+    own = sum(map(size, inclusion.states))
+    return own + sum(size(term) * len(term.multiplier) for term in inclusion.terms)
+
+
+def _refuse_large(inclusion: DifferentialInclusion) -> None:
+    places = _places(inclusion)
+    if places > LARGEST:
+        message = f"{places:,} states and multipliers are too many to analyze"
+        way_out = f"analyze the same scene with fewer elements: at most {LARGEST:,} in all"
+        raise ModelError([Diagnostic("NS014", message, help=way_out)], inclusion.source)
+
+
+def _at_start(scene: Scene) -> tuple[Local, EffectiveMass, list[float]] | None:
+    """Return the linear model at the start under the load there, W, and that load.
+
+    None where something is not finite there.
+    """
     unloaded = scene.at(scene.start)
+    if not unloaded.is_finite:
+        return None
     load = static_load(scene, unloaded, effective_mass(scene, unloaded))
     local = scene.at(scene.start, _preload(scene, load))
     return local, effective_mass(scene, local), load
@@ -124,8 +157,7 @@ def _preload(scene: Scene, load: list[float]) -> np.ndarray:
 
 def _is_known(scene: Scene) -> bool:
     """Whether every element has its constants and the paper's law."""
-    laws = (e.term.approximation.law == "xiong2013" for e in scene.elements)
-    return bool(scene.elements) and all(laws) and all(c.known for c in scene.constants)
+    return bool(scene.elements) and all(c.known for c in scene.constants)
 
 
 def _dissipates(scene: Scene) -> bool:

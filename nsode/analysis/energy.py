@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from nsode.analysis.local import LAW
 from nsode.derivative import time_derivatives
 from nsode.derivative.forward import Row
 from nsode.expr import Call, Expr, Index, Name, Number, add, divide, multiply, negate, subtract
@@ -33,7 +34,7 @@ def ledger(ode: AugmentedODE, inclusion: DifferentialInclusion) -> AugmentedODE:
         What it was made from.
     """
     rates = {rate.state: rate for rate in ode.rates}
-    terms = [t for t in inclusion.terms if t.approximation.law == "xiong2013"]
+    terms = [t for t in inclusion.terms if t.approximation.law == LAW]
     gaps = [Row(t.name, t.argument[0], t.range) for t in terms if t.kind == "dio"]
     definitions, closing = time_derivatives(ode, *gaps)
     speeds = {row.state: row.value for row in closing}

@@ -6,7 +6,7 @@ The derivatives are formed once, as expressions; :meth:`Scene.at` evaluates them
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from itertools import chain
 
@@ -31,10 +31,17 @@ from nsode.ode import (
 )
 from nsode.rewrite.constants import constants
 
+#: The law whose active sets, bounces and stick the analysis knows.
+LAW = "xiong2013"
+_ENDLESS = 1e60  # products of a few constants below it are finite
+
 
 @dataclass(frozen=True, slots=True)
 class Constants:
-    """The constants of one element; NaN where the model gives none, alpha NaN for sgn."""
+    """The constants of one element; alpha NaN for sgn.
+
+    All are NaN where the model gives none, or where the element has another law.
+    """
 
     stiffness: float
     alpha: float
@@ -48,7 +55,7 @@ class Constants:
             if np.isnan(self.alpha)
             else (self.stiffness, self.alpha, self.beta)
         )
-        return all(np.isfinite(v) and v > 0 for v in values)
+        return all(0 < v < _ENDLESS for v in values)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +110,11 @@ class Local:
     factor: Vector
     factor_state: Matrix
     factor_force: Matrix
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether every number is finite; a singular mass matrix has none that are."""
+        return all(np.isfinite(getattr(self, f.name)).all() for f in fields(self))
 
 
 class Scene:
@@ -187,7 +199,10 @@ class Scene:
 
     def at(self, point: Point, forces: Vector | None = None) -> Local:
         """Return the linear model at a point, under given multipliers (0 if None)."""
-        here = Point(dict(point.values), dict(point.first))
+        with np.errstate(all="ignore"):
+            return self._at(Point(dict(point.values), dict(point.first)), forces)
+
+    def _at(self, here: Point, forces: Vector | None) -> Local:
         width = sum(len(e.rows) for e in self.elements)
         self._load(here, np.zeros(width))
         rates, idle = self._rates(here), self._factor(here)
@@ -262,6 +277,8 @@ class Scene:
         return tuple(self._constants_of(element.term) for element in self.elements)
 
     def _constants_of(self, term: SetValuedTerm) -> Constants:
+        if term.approximation.law != LAW:
+            return Constants(np.nan, np.nan, np.nan)
         known = self.start.values
 
         def value(name: str) -> float:

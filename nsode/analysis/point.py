@@ -61,9 +61,18 @@ class Point:
         rows = [[self.value(a, solve.range) for a in row] for row in solve.matrix]
         right = [self.value(b, solve.range) for b in solve.right]
         matrices = np.moveaxis(np.array(rows), 2, 0)
-        solutions = np.linalg.solve(matrices, np.array(right).T[:, :, None])[:, :, 0]
+        solutions = _solved(matrices, np.array(right).T)
         for unknown, values in zip(solve.unknowns, solutions.T, strict=True):
             self.set(unknown, solve.range, values.tolist())
+
+
+def _solved(matrices: NDArray[np.float64], right: Matrix) -> Matrix:
+    """Return the solutions, NaN where a matrix is singular."""
+    try:
+        found = np.linalg.solve(matrices, right[:, :, None])[:, :, 0]
+    except np.linalg.LinAlgError:
+        return np.full(right.shape, np.nan)
+    return np.asarray(found, dtype=np.float64)
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +145,7 @@ def _values(entry: Entry, point: Point) -> list[float]:
             descend(level + 1, {**at, variable: k})
 
     descend(0, {})
-    return found
+    return np.asarray(found, dtype=np.float64)
 
 
 def _length(slot: Slot) -> int:

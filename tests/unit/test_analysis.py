@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from nsode.analysis.reach import conflicts, nonnegative_least_squares
 from nsode.analysis.sets import MOST_SETS, matrix
 from nsode.analysis.stability import bound, half_disc, radius
 from nsode.analysis.steps import reachable, stable_steps
+from nsode.diagnostics import ModelError
 from nsode.integrators import REGISTRY
 from nsode.ode import DifferentialInclusion
 from nsode.rewrite import rewrite
@@ -329,6 +331,35 @@ def test_a_model_without_constants_has_a_mass_and_no_steps():
     found = of_text(text + "\n")
     assert found.steps == ()
     assert found.mass.matrix == ((1.0, -1.0), (-1.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    "law",
+    ["der(v) = -F/v", "der(v) = -F + log(v - 1)", "v*v*der(v) = -F"],
+)
+def test_a_start_without_finite_rates_is_refused_by_the_analysis_and_no_warning(law):
+    text = f"model m\nstate v = 0\nforce F = sgn(v)\n{law}\napproximate F: K = 1e3, beta = 1e-2\n"
+    model = nsode.loads(text)
+    assert warnings(model.inclusion) == ()
+    with pytest.raises(ModelError, match="not finite at the start"):
+        model.analyze()
+
+
+def test_a_scene_too_large_is_refused_before_minutes_pass():
+    model = nsode.loads(COLUMN.replace("constant n = 10", "constant n = 5000"))
+    assert warnings(model.inclusion) == ()
+    with pytest.raises(ModelError, match="too many to analyze"):
+        model.analyze()
+
+
+def test_an_element_with_another_law_has_no_step_that_is_known():
+    inclusion = inclusions.sliding_mass()
+    (term,) = inclusion.terms
+    other = replace(term, approximation=replace(term.approximation, law="lugre"))
+    found = analyze(replace(inclusion, bindings=(other,)), rewrite(inclusion))
+    assert found.steps == ()
+    assert found.frictions == ()
+    assert found.mass.matrix == ((1.0,),)
 
 
 def test_a_model_without_set_valued_terms_has_nothing_to_limit():
