@@ -10,11 +10,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import nsode
 from nsode.backends import Options, emit
 from nsode.backends.casadi import functions
 from nsode.diagnostics import ModelError
 from nsode.expr import Expr, If, Index, IndexRange, Name, Number
 from nsode.ode import AugmentedODE, AuxiliaryState, Binding, Input, Output, Parameter, Rate, State
+from support.models import MODELS, PATHS
 from support.modules import load_module
 from support.odes import Maker, call, ode, of_rates
 from support.running import Tracer
@@ -164,6 +166,46 @@ def oscillator() -> AugmentedODE:
         outputs=[Output("force", Name("F"))],
         auxiliary=[AuxiliaryState("N.e", Number(0.0), start, "N", "dio(x)")],
     )
+
+
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
+def test_shipped_models_have_finite_jacobians_at_rest_and_in_free_flight(path):
+    model = nsode.load(path).casadi()
+    jacobian = model.rhs.jacobian()
+    zero = np.zeros_like(model.x0)
+    for x in (model.x0, zero, zero + 1.0, zero - 1e-3, zero + 1e-300):
+        blocks = jacobian(0.0, x, np.nan_to_num(model.u0), model.p0, 0)
+        assert all(np.all(np.isfinite(np.array(block))) for block in blocks)
+
+
+def test_a_sphere_above_the_floor_feels_no_friction_at_rest():
+    """Example I with v = w = 0 and e = a = 0: every force and every slope of it is zero."""
+    model = nsode.load(MODELS / "rolling_sphere.di").casadi()
+    x = np.where(np.isin(model.x_names, ["p.z", "q[1]"]), 1.0, 0.0)
+    slopes = ca.Function("j", [model.t, model.x, model.u, model.p], [ca.jacobian(model.y, model.x)])
+    forces = [model.y_names.index(name) for name in ("N", "F.x", "F.y")]
+    assert not np.any(np.array(slopes(0, x, [], model.p0))[forces])
+
+
+def test_the_slope_of_friction_in_stick_is_that_of_its_spring_and_damper():
+    """Pressed and at rest, F = K (a + beta slip), so dF.x/dv.x = K beta and dF.x/da.x = K."""
+    model = nsode.load(MODELS / "rolling_sphere.di").casadi()
+    values = {"p.z": 0.499, "N.e": 1e-3, "q[1]": 1.0}
+    x = np.array([values.get(name, 0.0) for name in model.x_names])
+    slopes = ca.Function("j", [model.t, model.x, model.u, model.p], [ca.jacobian(model.y, model.x)])
+    row = np.array(slopes(0, x, [], model.p0))[model.y_names.index("F.x")]
+    found = {name: slope for name, slope in zip(model.x_names, row, strict=True) if slope}
+    K, beta, R = 1e5, 4e-3, 0.5
+    assert found == pytest.approx({"v.x": K * beta, "w.y": -K * beta * R, "F.a.x": K})
+
+
+def test_the_sphere_ends_up_rolling_through_an_integrator_of_casadi():
+    model = nsode.load(MODELS / "rolling_sphere.di").casadi()
+    options = {"reltol": 1e-9, "abstol": 1e-10, "max_num_steps": 200_000}
+    sphere = ca.integrator("sphere", "cvodes", model.dae(), 0.0, 4.0, options)
+    end = dict(zip(model.x_names, dense(sphere(x0=model.x0, p=model.p0)["xf"]), strict=True))
+    assert end["v.x"] == pytest.approx(5 / 7 * 5.5, abs=1e-6)
+    assert end["w.y"] * 0.5 == pytest.approx(end["v.x"], abs=1e-6)
 
 
 def test_functions_have_named_inputs_and_outputs():
