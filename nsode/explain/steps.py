@@ -25,11 +25,20 @@ class Step:
     rates: tuple[Rate, ...]
     numbers: tuple[str, str] | None
 
+    @property
+    def law(self) -> str:
+        """The law that replaced the term."""
+        return self.term.approximation.law
+
 
 #: The paper's equations for force and state, by law and kind.
 NUMBERS: Mapping[tuple[str, str], tuple[str, str]] = {
     ("xiong2013", "dio"): ("25", "24"),
     ("xiong2013", "sgn"): ("18b", "18a"),
+    ("lugre", "sgn"): ("12b", "12a"),
+    ("kelvin_voigt", "dio"): ("15", ""),
+    ("clipped_kelvin_voigt", "dio"): ("16", ""),
+    ("smoothing", "sgn"): ("50", ""),
 }
 
 

@@ -48,13 +48,15 @@ def _lines(explanation: Explanation, head: Callable[[str], str]) -> Iterator[str
     ):
         if found:
             yield ""
-            yield head(f"{title} by {form}" if all(step.numbers for step in found) else title)
+            of_paper = all(step.law == "xiong2013" for step in found)
+            yield head(f"{title} by {form}" if of_paper else f"{title} by its law")
             for step in found:
                 yield from _step(step)
-    yield ""
-    yield head("Finally, the states e and a are appended")
     appended_by = [(rate, step) for step in explanation.steps for rate in step.rates]
-    yield from _table(_appended(rate, step) for rate, step in appended_by)
+    if appended_by:
+        yield ""
+        yield head("Finally, the states e and a are appended")
+        yield from _table(_appended(rate, step) for rate, step in appended_by)
     appended = sum(map(size, ode.auxiliary))
     own = sum(map(size, ode.states)) - appended
     yield ""
@@ -124,7 +126,7 @@ def law(term: SetValuedTerm) -> str:
 
 
 def _step(step: Step) -> Iterator[str]:
-    number = f"({step.numbers[0]})" if step.numbers else step.term.approximation.law
+    number = f"({step.numbers[0]})" if step.numbers else step.law
     yield f"  line {step.line}: {step.written}"
     yield from _table(_value(ids, value, step, number) for ids, value in step.values)
 

@@ -70,8 +70,10 @@ def _parts(explanation: Explanation, style: Style) -> Iterator[str]:
         yield style.display.format(state_space(inclusion, env))
         yield from _where([definitions(behind(inclusion), env)], style)
         yield from _replacements(explanation, env, style)
-        yield style.heading.format("Finally, append the states")
-        yield style.display.format(aligned(_appended(explanation, env)))
+        appended = list(_appended(explanation, env))
+        if appended:
+            yield style.heading.format("Finally, append the states")
+            yield style.display.format(aligned(appended))
     yield style.heading.format("The augmented ODE" if explanation.steps else "The ODE")
     yield style.display.format(columns(rates(explanation), "=", env))
     rows = [row for item in values(explanation) for row in _definition(item, env)]

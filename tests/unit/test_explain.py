@@ -122,6 +122,29 @@ def test_constants_that_nobody_gave_are_named_as_such():
     assert "N: K = not given, alpha = not given, beta = not given" in found.text()
 
 
+OTHER_LAWS = """model box
+state p[3] = [0, 0, 1]
+state v[3] = [1, 0, 0]
+force N = dio(p.z)
+force F = 0.5*N*sgn([v.x, v.y])
+der(p) = v
+der(v) = [-F.x, -F.y, N]
+approximate N with clipped_kelvin_voigt: K = 1e5, B = 100
+approximate F with smoothing: epsilon = 1e-3
+"""
+
+
+def test_another_law_is_shown_as_what_it_is():
+    found = of(OTHER_LAWS)
+    text = found.text()
+    assert "First, each dio(psi) is replaced by its law" in text
+    assert "max(0, -N.K*p.z - N.B*v.z)" in text
+    assert "(16)" in text
+    assert "appended" not in text.replace("6 states and 0 appended", "")
+    assert r"\tag{50}" in found.markdown()
+    assert "(18a)" not in found.markdown()
+
+
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 def test_a_notebook_gets_text_and_markdown(path):
     loaded = nsode.load(path)
