@@ -12,12 +12,15 @@ from nsode.passes.split import pieces, settle
 
 
 def choose(items: list[Expr], over: IndexRange) -> Expr:
-    """Return the item that belongs to the index of ``over``, as a chain of conditions."""
-    result = items[-1]
-    for k in range(len(items) - 2, -1, -1):
-        here = Call("==", (Index(over.variable), Number(float(over.first + k))))
-        result = If(here, items[k], result, span=items[k].span)
-    return result
+    """Return the item that belongs to the index of ``over``, by halving the range."""
+    if len(items) == 1:
+        return items[0]
+    half = len(items) // 2
+    last = over.first + half - 1
+    here = Call("<=", (Index(over.variable), Number(float(last))))
+    below = choose(items[:half], IndexRange(over.variable, over.first, last))
+    above = choose(items[half:], IndexRange(over.variable, last + 1, over.last))
+    return If(here, below, above, span=items[0].span)
 
 
 @dataclass(frozen=True, slots=True)
