@@ -5,14 +5,16 @@ from __future__ import annotations
 from nsode.expr import Call, Expr, If, IndexRange, Sum, walk
 from nsode.ode import AugmentedODE, Binding, LinearSolve
 from nsode.passes.prune import needed, reads
+from nsode.passes.split import split
 
 
 def operations(ode: AugmentedODE) -> int:
     """Return the operations and function calls of one evaluation of the rates.
 
     A family counts once for each of its elements, a linear system of size n with n^3/3
-    for its factorization.
+    for its factorization; what the index decides costs nothing.
     """
+    ode = split(ode)
     wanted = reads(*(rate.value for rate in ode.rates))
     total = sum(_times(rate.range) * _count(rate.value) for rate in ode.rates)
     for item in needed(ode.bindings, wanted):
