@@ -13,16 +13,16 @@ RNG = np.random.default_rng(20)
 
 
 def contact(e, psi, K, alpha, beta):
-    force = K * max(0.0, e - beta * (psi + e) / alpha)
-    return force, max(-e / beta, -(psi + e) / alpha)
+    force = K * max(0.0, e - beta * (psi + e) * (1 / alpha))
+    return force, max(-e * (1 / beta), -(psi + e) * (1 / alpha))
 
 
 def column_by_hand(n, state, L, d, m, g, *constants):
-    """The rates and forces of the column, straight from (24), (25) and Newton."""
+    """The rates and forces of the column: (24), (25) and Newton, with the reciprocals of the C."""
     x, v, e = state[:n], state[n : 2 * n], state[2 * n :]
     gaps = [(x[i] if i < n else L) - (x[i - 1] if i > 0 else 0.0) - d for i in range(n + 1)]
     forces, rates = zip(*(contact(e[i], gaps[i], *constants) for i in range(n + 1)), strict=True)
-    accelerations = [(forces[i] - forces[i + 1]) / m - g for i in range(n)]
+    accelerations = [(forces[i] - forces[i + 1]) * (1 / m) - g for i in range(n)]
     total = 0.0
     for i, force in enumerate(forces):
         total += force * i

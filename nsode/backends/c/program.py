@@ -11,6 +11,7 @@ from nsode.backends.c.jacobian import Arranged, arranged
 from nsode.backends.c.names import Mangler, identifier, mangled
 from nsode.backends.jacobian import sparse_jacobian
 from nsode.ode import AugmentedODE, Check, Placed, Slot, layout, size
+from nsode.passes.reciprocal import multiply_by_reciprocals
 from nsode.passes.split import split, split_check
 
 
@@ -65,7 +66,7 @@ def program(ode: AugmentedODE, options: Options) -> Program:
         names = mangled(f"{letter}_", (item.name for item in items))
         return Vector(letter, items, layout(items), names)
 
-    sparse = sparse_jacobian(ode)
+    sparse = sparse_jacobian(multiply_by_reciprocals(ode))
     return Program(
         ode=split(sparse.ode),
         prefix=identifier(options.prefix or ode.name),
