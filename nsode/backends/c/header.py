@@ -71,6 +71,7 @@ typedef {"float" if program.single else "double"} {prefix}_real;
 {_enum(_counts(program))}
 {"".join(_places(program, vector) for vector in program.vectors)}{STATUS.format(prefix=prefix)}
 /* A step leaves x untouched unless it returns 0. */
+
 {functions}
 {_tables(program)}
 #ifdef __cplusplus
