@@ -15,8 +15,10 @@ from nsode.diagnostics import Diagnostic, ModelError
 from nsode.files import write_all
 from nsode.inclusion import build
 from nsode.ode import AugmentedODE, DifferentialInclusion, size
+from nsode.regularizations import Kind
 from nsode.rewrite import rewrite
 from nsode.rewrite.start import at_start, initial_state
+from nsode.rewrite.switch import with_laws
 from nsode.source import Source
 from nsode.syntax import decode, parse, read
 
@@ -95,6 +97,41 @@ class Model:
             inclusion=replace(self.inclusion, parameters=own),
             ode=replace(self.ode, parameters=tuple(changed)),
         )
+
+    def with_law(self, *, friction: str | None = None, contact: str | None = None) -> Model:
+        """Return the model with other published laws for its friction and contact.
+
+        K keeps its value, and a damper B is K*beta. Other constants have the defaults of
+        their law or no value: see the model's ``p0``, and :meth:`with_parameters`.
+
+        Parameters
+        ----------
+        friction
+            The law for every ``sgn``: ``xiong2013``, ``lugre`` or ``smoothing``.
+        contact
+            The law for every ``dio``: ``xiong2013``, ``kelvin_voigt``,
+            ``clipped_kelvin_voigt`` or ``hunt_crossley``.
+
+        Raises
+        ------
+        ModelError
+            NS306 for a name that is no such law, or a term that it cannot represent.
+        """
+        chosen: dict[Kind, str] = {}
+        if friction is not None:
+            chosen["sgn"] = friction
+        if contact is not None:
+            chosen["dio"] = contact
+        if not chosen:
+            return self
+        earlier = _remarks(self.inclusion, self.ode)
+        try:
+            inclusion = with_laws(self.inclusion, self.ode.parameters, chosen)
+            ode = rewrite(inclusion)
+            lasting = (d for d in self.diagnostics if d not in earlier)
+            return Model(inclusion, ode, (*lasting, *_remarks(inclusion, ode)))
+        except ModelError as error:
+            raise ModelError(error.diagnostics, self.source) from None
 
     def emit(self, target: str, options: Options = Options()) -> dict[str, str]:
         """Return the files of a target by name, without writing them.
@@ -289,16 +326,20 @@ def compile_source(source: Source) -> Model:
     ModelError
         If the model is refused; it names the source.
     """
-    from nsode.analysis import warnings
-
     with _without_collector():
         try:
             inclusion, diagnostics = build(parse(source))
             ode = rewrite(inclusion)
-            said = (*diagnostics, *at_start(ode), *warnings(inclusion))
-            return Model(inclusion, ode, said)
+            return Model(inclusion, ode, (*diagnostics, *_remarks(inclusion, ode)))
         except ModelError as error:
             raise ModelError(error.diagnostics, source) from None
+
+
+def _remarks(inclusion: DifferentialInclusion, ode: AugmentedODE) -> tuple[Diagnostic, ...]:
+    """Return what is to be said of a model under its laws."""
+    from nsode.analysis import warnings
+
+    return (*at_start(ode), *warnings(inclusion))
 
 
 @contextmanager

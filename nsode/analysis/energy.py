@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from nsode.analysis.local import LAW
 from nsode.derivative import time_derivatives
-from nsode.derivative.forward import Row
+from nsode.derivative.forward import Row, defined
 from nsode.expr import Call, Expr, Index, Name, Number, add, divide, multiply, negate, subtract
 from nsode.ode import AugmentedODE, DifferentialInclusion, Output, Rate, SetValuedTerm
 
@@ -49,7 +49,9 @@ def ledger(ode: AugmentedODE, inclusion: DifferentialInclusion) -> AugmentedODE:
             Output(f"{term.name}.{word}", value, term.range, span=term.span)
             for word, value in entries
         ]
-    return replace(ode, bindings=(*ode.bindings, *definitions), outputs=(*ode.outputs, *outputs))
+    present = {name for item in ode.bindings for name in defined(item)}
+    new = (item for item in definitions if present.isdisjoint(defined(item)))
+    return replace(ode, bindings=(*ode.bindings, *new), outputs=(*ode.outputs, *outputs))
 
 
 Entries = Iterator[tuple[str, Expr]]

@@ -284,9 +284,10 @@ class Scene:
         def value(name: str) -> float:
             return known.get(f"{term.name}.{name}", [np.nan])[0]
 
-        return Constants(
-            value("K"), value("alpha") if term.kind == "dio" else np.nan, value("beta")
-        )
+        given = Constants(value("K"), value("alpha"), value("beta"))
+        if term.kind == "dio" and np.isnan(given.alpha):
+            return Constants(np.nan, np.nan, np.nan)
+        return given
 
     def moves(self, jacobian: Jacobian) -> bool:
         """Whether the entries of a Jacobian depend on time, inputs or the state."""

@@ -27,7 +27,7 @@ def constants(term: SetValuedTerm) -> tuple[Constant, ...]:
         Constant("c", (Condition(">=", 0.0, "a negative damper creates energy"),)),
         Constant(
             "n",
-            (Condition(">=", 1.0, "a force that rises more steeply than a spring's is endless"),),
+            (Condition(">=", 1.0, "below 1 the stiffness at the touch is infinite"),),
             default=Number(1.0),
         ),
     )

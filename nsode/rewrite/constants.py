@@ -11,6 +11,7 @@ from nsode.expr import Call, Expr, Name, Number, names
 from nsode.ode import Approximation, Check, DifferentialInclusion, Parameter, SetValuedTerm
 from nsode.regularizations import LAWS, Condition, Constant, law, laws_of
 from nsode.rewrite.fixed import Fixed
+from nsode.source import NOWHERE
 
 
 def constants(inclusion: DifferentialInclusion) -> tuple[Parameter, ...]:
@@ -43,7 +44,9 @@ def constants(inclusion: DifferentialInclusion) -> tuple[Parameter, ...]:
     for name, formula in formulas.items():
         value = math.nan if formula is None else _value(name, formulas, values, ())
         read = formula if formula is not None and any(True for _ in names(formula)) else None
-        span = owners[name].span if formula is None else formula.span
+        span = NOWHERE if formula is None else formula.span
+        if span == NOWHERE:
+            span = owners[name].span
         found.append(
             Parameter(name, (value,), formula=read, constant_of=owners[name].name, span=span)
         )
