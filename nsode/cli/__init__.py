@@ -22,6 +22,7 @@ COMMANDS: dict[str, str] = {
     "check": "Say whether models are sound, and what is wrong where they are not.",
     "new": "Write a model to start from.",
     "doctor": "Show what nsode finds on this machine.",
+    "paper": "Repeat the figures of the paper.",
     "cache": "Show or clear what runs have compiled.",
     "code": "Explain a code such as NS201.",
 }

@@ -111,7 +111,7 @@ def _elements(terms: Sequence[SetValuedTerm], kind: str | None = None) -> Iterat
 def _mode(term: SetValuedTerm) -> Expr:
     values = tuple(Name(name, _at(term)) for name in term.multiplier)
     if term.kind == "dio":
-        return If(Call(">", (values[0], Number(0.0))), _code(Mode.CONTACT), _code(Mode.FREE))
+        return If(Call("!=", (values[0], Number(0.0))), _code(Mode.CONTACT), _code(Mode.FREE))
     level = Number(1.0) if term.factor is None else term.factor
     force = Call("abs", values) if len(values) == 1 else Call("norm", values)
     below = Call("<", (force, multiply(Number(_BELOW), level)))

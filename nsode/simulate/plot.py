@@ -59,6 +59,7 @@ def plot(trajectory: Trajectory, names: Sequence[str] = (), file: Path | None = 
         if bands:
             _mode_panel(axes[-1, 0], trajectory)
         axes[-1, 0].set_xlabel("t [s]")
+        figure.align_ylabels()
         if file is not None:
             write(figure, file)
     return figure
@@ -77,7 +78,8 @@ def write(figure: Figure, file: Path) -> None:
     from nsode.files import write_binary
 
     ending = file.suffix.lstrip(".") or "png"
-    write_binary(file, lambda target: figure.savefig(target, format=ending))
+    undated = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}.get(ending)
+    write_binary(file, lambda target: figure.savefig(target, format=ending, metadata=undated))
 
 
 def curves(axis: Axes, trajectory: Trajectory, names: Sequence[str]) -> None:
