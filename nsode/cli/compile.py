@@ -10,7 +10,7 @@ import click
 
 from nsode.backends import TARGETS, Options
 from nsode.cli.failure import USAGE, io_diagnostic
-from nsode.cli.model import load, summary
+from nsode.cli.model import law_options, load, summary
 from nsode.cli.terminal import bold, complain, quiet, say
 from nsode.files import write_all
 from nsode.ode import AugmentedODE
@@ -74,6 +74,7 @@ def _numbers(
     "--bake", callback=_numbers, multiple=True, metavar="NAME=NUMBER",
     help="Write a parameter as this number, in SI, for good; may be repeated.",
 )  # fmt: skip
+@law_options
 def command(
     model: str,
     target: str,
@@ -82,13 +83,15 @@ def command(
     prefix: str | None,
     outputs: list[str] | None,
     bake: dict[str, float],
+    friction: str | None,
+    contact: str | None,
 ) -> int:
     """Write MODEL as code that integrates.
 
     The C is plain C99 without allocation: copy it anywhere. Every file is written
     whole, or none is.
     """
-    loaded = load(model)
+    loaded = load(model, friction=friction, contact=contact)
     complain(loaded.diagnostics, loaded.source)
     whole = loaded.ode
     if outputs is not None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from nsode.cli.failure import USAGE, io_diagnostic
-from nsode.cli.model import load
+from nsode.cli.model import law_options, load
 from nsode.cli.terminal import complain, paints, say
 from nsode.files import write_all
 
@@ -23,7 +23,10 @@ from nsode.files import write_all
     "-o", "--output", type=click.Path(path_type=Path),
     help="The file to write.  [default: standard output]",
 )  # fmt: skip
-def command(model: str, style: str, output: Path | None) -> int:
+@law_options
+def command(
+    model: str, style: str, output: Path | None, friction: str | None, contact: str | None
+) -> int:
     """Show how the differential inclusion of MODEL becomes an ODE.
 
     The inclusion as it is written, each replacement with its line and its equation in
@@ -31,7 +34,7 @@ def command(model: str, style: str, output: Path | None) -> int:
     """
     from nsode.explain import explain
 
-    loaded = load(model)
+    loaded = load(model, friction=friction, contact=contact)
     explanation = explain(loaded.inclusion, loaded.ode)
     match style:
         case "text":

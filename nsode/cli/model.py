@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeVar
 
-from nsode.ode import SetValuedTerm, size
+import click
+
+from nsode.ode import Binding, SetValuedTerm, size
+from nsode.regularizations import laws_of
 from nsode.source import Source
 from nsode.syntax.limits import DEFAULT_LIMITS
 from nsode.syntax.reading import decode, read
 
 if TYPE_CHECKING:
     from nsode.compiler import Model
+
 
 STANDARD_INPUT = "-"
 _SHOWN = 6
@@ -30,24 +35,37 @@ def source_of(argument: str) -> Source:
     return read(argument)
 
 
-def load(argument: str) -> Model:
-    """Load the model that an argument names.
+def load(argument: str, *, friction: str | None = None, contact: str | None = None) -> Model:
+    """Load the model that an argument names, under other laws if they are named.
 
     Raises
     ------
     ModelError
-        If it cannot be read or is refused.
+        If it cannot be read or is refused, also under these laws.
     """
     from nsode import compiler
 
-    return compiler.compile_source(source_of(argument))
+    model = compiler.compile_source(source_of(argument))
+    return model.with_law(friction=friction, contact=contact)
+
+
+_Command = TypeVar("_Command", bound=Callable[..., int])
+
+
+def law_options(command: _Command) -> _Command:
+    """Give a command the options ``--friction`` and ``--contact``."""
+    for option, kind in (("--contact", "dio"), ("--friction", "sgn")):
+        laws = laws_of(kind)
+        text = f"Another law for every {kind}: {', '.join(laws)}."
+        command = click.option(option, type=click.Choice(laws), metavar="LAW", help=text)(command)
+    return command
 
 
 def summary(model: Model) -> str:
     """Return how large the augmented ODE of a model is, on one line."""
     ode = model.ode
-    acting = {auxiliary.term for auxiliary in ode.auxiliary}
-    terms = tuple(term for term in model.inclusion.terms if term.name in acting)
+    kept = {item.name for item in ode.bindings if isinstance(item, Binding)}
+    terms = tuple(term for term in model.inclusion.terms if not kept.isdisjoint(term.multiplier))
     added = sum(map(size, ode.auxiliary))
     own = sum(map(size, ode.states)) - added
     auxiliary = f" + {added} auxiliary" if added else ""

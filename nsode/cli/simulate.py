@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 
 from nsode.cli.failure import USAGE, io_diagnostic, missing
-from nsode.cli.model import load
+from nsode.cli.model import law_options, load
 from nsode.cli.terminal import complain, quiet, say
 from nsode.diagnostics import Diagnostic, ModelError
 
@@ -53,6 +53,7 @@ _PLOT = "-"  # what `--plot` without a file stands for
 )  # fmt: skip
 @click.option("--strict", is_flag=True, help="Refuse what draws a warning before the run.")
 @click.option("--no-guard", is_flag=True, help="Go on where energy comes from nothing.")
+@law_options
 def command(
     model: str,
     duration: float | None,
@@ -65,6 +66,8 @@ def command(
     plot: str | None,
     strict: bool,
     no_guard: bool,
+    friction: str | None,
+    contact: str | None,
 ) -> int:
     """Run MODEL as compiled C and show what happened.
 
@@ -73,7 +76,7 @@ def command(
     """
     from nsode.simulate import Manner, RunError, Wish
 
-    loaded = load(model)
+    loaded = load(model, friction=friction, contact=contact)
     drawing = None if plot is None else Path(f"{loaded.name}.png" if plot == _PLOT else plot)
     _check_places(output, drawing)
     complain([d for d in loaded.diagnostics if d.code != "NS407"], loaded.source)
