@@ -134,6 +134,14 @@ def test_terms_are_added_from_the_left():
     assert value(big, a=1.5) == (1.5 + 1e16) - 1e16 != 1.5
 
 
+def test_a_sum_of_thousands_of_terms_compiles_and_keeps_its_order():
+    terms = [call("neg", Name("a")) if k % 3 else Name("b") for k in range(5000)]
+    expected = 0.0
+    for k in range(5000):
+        expected += -0.1 if k % 3 else 0.7
+    assert value(call("+", *terms), a=0.1, b=0.7) == expected
+
+
 HARD_NAMES = [
     *keyword.kwlist, *keyword.softkwlist, "np", "real", "int", "print", "rhs", "out", "init", "t",
     "h", "x", "u", "p", "dx", "NX", "p0", "sat", "solve", "vectors", "k1", "step_rk4", "I", "S",

@@ -35,6 +35,15 @@ def mod(a, b):
     return a - b * np.floor(np.divide(a, b))
 '''
 
+_ADD = '''\
+def add(*terms):
+    """Return a long sum, added from the left."""
+    total = terms[0]
+    for term in terms[1:]:
+        total = total + term
+    return total
+'''
+
 _INDICES = '''\
 def indices(first, last):
     """Return the numbers of the elements of a family, both ends included."""
@@ -96,6 +105,7 @@ HELPERS = {
     "shrink": _SHRINK.rstrip(),
     "norm": _NORM.rstrip(),
     "mod": _MOD.rstrip(),
+    "add": _ADD.rstrip(),
     "indices": _INDICES.rstrip(),
     "total": _TOTAL.rstrip(),
     "solve": _SOLVE.rstrip(),

@@ -49,6 +49,9 @@ class Text(NamedTuple):
 
 _IF, _OR, _AND, _NOT, _COMPARE, _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(10)
 
+#: Terms beyond which a sum is a call: Python's compiler recurses over operators.
+_LONGEST = 50
+
 _CALLS = {
     **{name: f"np.{name}" for name in ("sqrt", "exp", "log", "sin", "cos", "tan", "abs")},
     **{name: f"np.{name}" for name in ("sinh", "cosh", "tanh")},
@@ -121,6 +124,8 @@ def _call(function: str, args: tuple[Expr, ...], env: Environment) -> Text:
     if _may_raise(function, args):
         parts[0] = Text(f"real({parts[0].text})", _ATOM)
     match function:
+        case "+" if len(parts) > _LONGEST:
+            return Text(f"add({', '.join(part.text for part in parts)})", _ATOM)
         case "+":
             return Text(_terms(args, parts), _SUM)
         case "neg":

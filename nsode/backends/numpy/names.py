@@ -15,6 +15,7 @@ _OWN = {
     *("np", "real", "numpy", "t", "h", "x", "u", "p", "y", "dx", "rhs", "out", "init"),
     *("NX", "NU", "NP", "NY", "x_names", "u_names", "p_names", "y_names", "u0", "p0"),
     *("sat", "shrink", "norm", "mod", "total", "indices", "solve", "vectors", "flush"),
+    *("add", "tiny"),
 }
 RESERVED = frozenset({*_OWN, *keyword.kwlist, *keyword.softkwlist, *dir(builtins)})
 
