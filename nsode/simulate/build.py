@@ -7,8 +7,9 @@ import platform
 import shlex
 import shutil
 import subprocess
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
 from hashlib import sha256
 from importlib.resources import files
@@ -17,6 +18,7 @@ from pathlib import Path
 from nsode.backends import Options, emit
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.integrators import REGISTRY
+from nsode.integrators.pairs import PAIRS, EmbeddedPair
 from nsode.ode import AugmentedODE
 from nsode.simulate import cache
 
@@ -31,6 +33,7 @@ _FLAGS = (
 )  # fmt: skip
 FAST = (*_FLAGS, "-O3", "-fno-semantic-interposition", "-fno-tree-slp-vectorize")
 _COMPILERS = ("cc", "gcc", "clang", "tcc")
+_ZERO = (Fraction(0),)
 _PATIENCE = 600  # seconds for one compilation
 
 
@@ -77,12 +80,35 @@ def sources(ode: AugmentedODE, method: str) -> dict[str, str]:
         "(double t, double h, double *x, const double *u, const double *p);\n"
         for name in REGISTRY
     )
-    loop = files("nsode.simulate").joinpath("run.c").read_text(encoding="utf-8")
+    file, definitions = "run.c", f"#define STEP {PREFIX}_step_{method}\n"
+    if method in PAIRS:
+        file, definitions = "pair.c", _tableau(PAIRS[method], bool(ode.checks))
+    loop = files("nsode.simulate").joinpath(file).read_text(encoding="utf-8")
     return {
         f"{PREFIX}.h": texts[f"{PREFIX}.h"],
         f"{PREFIX}.c": texts[f"{PREFIX}.c"],
-        "run.c": f"#define STEP {PREFIX}_step_{method}\n{steps}{loop}",
+        "run.c": f"{definitions}{steps}{loop}",
     }
+
+
+def _tableau(pair: EmbeddedPair, checked: bool) -> str:
+    """Return the definitions that the loop of a pair reads."""
+    stages = pair.method.stages
+    rows = (f"{{ {_numbers((*row, *_ZERO * (stages - len(row))))} }}" for row in pair.method.a)
+    found = {
+        "STAGES": str(stages),
+        "ORDER": str(pair.order),
+        "CHECKED": str(int(checked)),
+        "A": ", ".join(rows),
+        "C": _numbers(pair.method.c),
+        "E": _numbers(pair.error),
+        "D": _numbers(pair.dense),
+    }
+    return "".join(f"#define {name} {value}\n" for name, value in found.items())
+
+
+def _numbers(row: Iterable[Fraction]) -> str:
+    return ", ".join(repr(float(number)) for number in row)
 
 
 def _compile(texts: Mapping[str, str], folder: Path, using: Compiler, flags: Sequence[str]) -> Path:

@@ -82,7 +82,7 @@ def _not_finite(
 
 
 def _step(native: Native, settings: Settings, t: float, u: Vector, p: Vector, x: Vector) -> Vector:
-    scheme, h = REGISTRY[settings.method], settings.step
+    scheme, h = REGISTRY.get(settings.method), settings.step
     if not isinstance(scheme, RungeKutta):
         return x + h * native.rates(t, x, u, p)
     slopes: list[Vector] = []

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nsode.integrators.pairs import PAIRS
 from nsode.simulate.inputs import Inputs
 from nsode.simulate.native import OK, Native
 from nsode.simulate.settings import Settings
@@ -66,6 +67,9 @@ def record(
     ys[0] = native.outputs(settings.start, x, inputs.at(settings.start), p)
     taken, status, interrupted, chunk = 0, OK, False, _FIRST
     held = inputs.constant[None, :]
+    reach = None
+    if settings.method in PAIRS:
+        reach = native.reach(settings.steps, settings.tolerances)
     begin = before = time.perf_counter()
     try:
         while taken < settings.steps and status == OK:
@@ -76,7 +80,7 @@ def record(
             row = taken // settings.every + 1
             advance = native.run(
                 (settings.start, settings.step),
-                taken, count, settings.every, x, u, p, xs[row:], ys[row:],
+                taken, count, settings.every, x, u, p, xs[row:], ys[row:], reach,
             )  # fmt: skip
             taken, status = taken + advance.done, advance.status
             now = time.perf_counter()

@@ -30,6 +30,20 @@ class Advance:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Reach:
+    """The end of a run in steps, relative and absolute tolerance, and the step at hand."""
+
+    total: int
+    tolerance: Vector
+    memory: Vector
+
+    def arguments(self) -> tuple[object, ...]:
+        """Return the further arguments of ``run``."""
+        memory = self.memory.ctypes.data_as(ctypes.c_void_p)
+        return c_longlong(self.total), _pointer(self.tolerance), memory
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Native:
     """The compiled functions of one model. Vectors are contiguous and of the right length."""
 
@@ -67,11 +81,13 @@ class Native:
         p: Vector,
         xs: Vector,
         ys: Vector,
+        reach: Reach | None = None,
     ) -> Advance:
         """Take ``count`` steps from step ``first`` on, in place; rows go to ``xs``, ``ys``.
 
         ``clock`` is the start of step 0 and the size of a step; ``u`` has one row, which
-        holds, or one for each step and one for the end.
+        holds, or one for each step and one for the end; ``reach`` is what a method that
+        chooses its own steps needs.
         """
         done = c_longlong()
         stride = u.shape[1] if len(u) > 1 else 0
@@ -81,8 +97,14 @@ class Native:
             c_longlong(first), c_longlong(count), c_longlong(every),
             _pointer(x), _pointer(u), c_longlong(stride), _pointer(p),
             _pointer(xs), _pointer(ys), ctypes.byref(done),
+            *(() if reach is None else reach.arguments()),
         )  # fmt: skip
         return Advance(done.value, status)
+
+    def reach(self, total: int, tolerance: Vector) -> Reach:
+        """Return what a method that chooses its own steps carries through one run."""
+        length = c_longlong.in_dll(self.handle, f"{PREFIX}_step_size").value
+        return Reach(total, tolerance, np.zeros(length // 8 + 1))
 
     def _function(self, name: str) -> ctypes._FuncPointer:
         function: ctypes._FuncPointer = getattr(self.handle, f"{PREFIX}_{name}")

@@ -5,14 +5,20 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from nsode.diagnostics import Diagnostic, Label, ModelError, suggest
 from nsode.integrators import REGISTRY
+from nsode.integrators.pairs import PAIRS
 from nsode.ode import Run
 
 #: What a run may ask for.
 MOST_STEPS = 10**9
 MOST_BYTES = 2 * 2**30
 
+_USUAL_TOLERANCE = 1e-8
+_SMALL = 1e-3  # below this a state is judged by its absolute error, in SI
 _SECONDS_A_STEP = 1e-7  # of a small scene, for estimates
 _DEFAULT_METHOD = next(iter(REGISTRY))
 
@@ -22,7 +28,8 @@ class Wish:
     """What a person asks of a run; None leaves it to the model.
 
     ``duration``, ``step`` and ``start`` are in seconds; ``every`` counts steps from one
-    stored row to the next.
+    stored row to the next. ``tolerance`` is the relative error of a step of a method that
+    chooses its own steps; to it, ``step`` only says where inputs are read and rows may lie.
     """
 
     duration: float | None = None
@@ -30,6 +37,7 @@ class Wish:
     every: int | None = None
     method: str | None = None
     start: float = 0.0
+    tolerance: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +49,12 @@ class Settings:
     steps: int
     every: int
     method: str
+    tolerance: float
+
+    @property
+    def tolerances(self) -> NDArray[np.float64]:
+        """The relative and the absolute error of a step that are tolerated."""
+        return np.array([self.tolerance, self.tolerance * _SMALL])
 
     @property
     def duration(self) -> float:
@@ -86,11 +100,15 @@ def settle(wish: Wish, run: Run, columns: int) -> tuple[Settings, list[Diagnosti
     if wish.every is not None and wish.every < 1:
         message = f"rows are stored every 1 or more steps, not every {wish.every}"
         problems.append(Diagnostic("NS501", message))
+    tolerance = _USUAL_TOLERANCE if wish.tolerance is None else wish.tolerance
+    if not 1e-15 < tolerance < 1:
+        message = f"a tolerance lies between 1e-15 and 1, {tolerance:g} does not"
+        problems.append(Diagnostic("NS501", message))
     if problems or duration is None or step is None:
         raise ModelError(problems)
     steps = round(duration / step)
     every, remarks = _every(wish, run, step)
-    settings = Settings(wish.start, step, steps, every, method)
+    settings = Settings(wish.start, step, steps, every, method, tolerance)
     problems = [*_too_short(duration, step, steps), *_too_large(settings, columns)]
     if problems:
         raise ModelError(problems)
@@ -98,6 +116,11 @@ def settle(wish: Wish, run: Run, columns: int) -> tuple[Settings, list[Diagnosti
         message = f"the duration is {duration / step:.6g} steps long; the run takes {steps:,}"
         remarks.append(Diagnostic("NS404", message, severity="note"))
     return settings, remarks
+
+
+def methods() -> tuple[str, ...]:
+    """Return the names of the methods that a run can be made with."""
+    return (*REGISTRY, *PAIRS)
 
 
 def _missing(duration: float | None, step: float | None) -> list[Diagnostic]:
@@ -126,15 +149,15 @@ def _unsound(what: str, value: float | None) -> list[Diagnostic]:
 
 
 def _unknown(method: str, run: Run | None) -> list[Diagnostic]:
-    if method in REGISTRY:
+    if method in methods():
         return []
     return [
         Diagnostic(
             "NS501",
             f"there is no method `{method}`",
             () if run is None else (Label(run.span),),
-            notes=("the methods are " + ", ".join(f"`{name}`" for name in REGISTRY),),
-            help=suggest(method, REGISTRY),
+            notes=("the methods are " + ", ".join(f"`{name}`" for name in methods()),),
+            help=suggest(method, methods()),
         )
     ]
 

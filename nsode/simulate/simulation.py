@@ -12,6 +12,7 @@ import numpy as np
 
 from nsode import __version__
 from nsode.diagnostics import Diagnostic, ModelError
+from nsode.integrators import REGISTRY
 from nsode.ode import AugmentedODE, DifferentialInclusion, Output, State, element_names, size
 from nsode.simulate import failure, parameters
 from nsode.simulate.foresee import foresee
@@ -199,6 +200,7 @@ def _meta(
             "taken": found.taken,
             "every": settings.every,
             "method": settings.method,
+            "tolerance": settings.tolerance if settings.method not in REGISTRY else None,
             "status": found.status,
             "interrupted": found.interrupted,
         },
