@@ -24,7 +24,7 @@ from nsode.ode import AugmentedODE, DifferentialInclusion, size
 #: States and multipliers beyond which a step is not checked on every compile.
 LARGE = 300
 #: States and multipliers beyond which the matrices of an analysis take minutes.
-LARGEST = 600
+LARGEST = 400
 #: Active sets beyond which a compile searches among them instead.
 FEW_SETS = 256
 

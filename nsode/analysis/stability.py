@@ -60,9 +60,14 @@ def radius(scheme: Scheme, angle: float) -> float:
     """Return how far the stability region reaches from 0 in the direction ``angle``."""
     match scheme:
         case RungeKutta():
-            return _polynomial_radius(tuple(map(float, scheme.stability_polynomial)), angle)
+            return _polynomial_radius(_coefficients(scheme), angle)
         case _:
             return _scanned_radius(scheme.stability, angle)
+
+
+@lru_cache(maxsize=64)
+def _coefficients(scheme: RungeKutta) -> tuple[float, ...]:
+    return tuple(map(float, scheme.stability_polynomial))
 
 
 @lru_cache(maxsize=100_000)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 
@@ -13,7 +14,8 @@ from nsode.analysis.sets import CONTACT, MOST_SETS, ActiveSet, Family, matrix
 from nsode.analysis.stability import Modes, Worst, bound, half_disc, reach
 from nsode.integrators import Scheme
 
-_ROUNDS = 6
+_ROUNDS = 3
+_EFFORT = 4e7  # tries in a round of the search, times the cube of the size
 _NUDGE = 0.99
 
 
@@ -164,20 +166,23 @@ def _elasticities(place: Reachable, worst: Worst, scheme: Scheme) -> list[tuple[
 
 
 def _searched(place: Reachable, scheme: Scheme) -> Modes:
-    """Return the sets that a search met: all press, then one change at a time for the worse."""
-    sets = list(_beginnings(place.family))
-    modes = place.modes(sets)
-    worst = modes.worst(scheme)
+    """Return the sets that a search met: all press, then one change at a time for the worse.
+
+    The larger the scene, the fewer changes are tried.
+    """
+    places = sum(place.local.force.shape)
+    tries = max(2, int(_EFFORT / places**3))
+    best = place.modes(list(_beginnings(place.family)))
+    worst = best.worst(scheme)
     for _ in range(_ROUNDS):
         if worst is None:
-            return modes
-        sets = list(dict.fromkeys((*sets, *_neighbors(place.family, worst.active))))
-        modes = place.modes(sets)
-        better = modes.worst(scheme)
-        if better is None or better.step >= worst.step:
-            return modes
-        worst = better
-    return modes
+            break
+        modes = place.modes(list(islice(_neighbors(place.family, worst.active), tries)))
+        after = modes.worst(scheme)
+        if after is None or after.step >= worst.step:
+            break
+        best, worst = modes, after
+    return best
 
 
 def _beginnings(family: Family) -> Iterator[ActiveSet]:
