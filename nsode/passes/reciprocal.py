@@ -7,6 +7,7 @@ division is what the right-hand sides of this method spend most of their time on
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 from math import frexp, isfinite
 
 from nsode.expr import Call, Expr, If, Index, Name, Number, children, rebuild
@@ -17,11 +18,13 @@ from nsode.passes.expressions import map_expressions
 def multiply_by_reciprocals(ode: AugmentedODE) -> AugmentedODE:
     """Return the ODE with multiplications in place of divisions by parameters and numbers.
 
-    A division in a branch stays: its divisor may be zero where the branch is not taken. So
-    does a quotient of parameters alone, which a compiler takes out of the loop by itself.
+    Bindings and rates change; what is computed once stays as it was written. A division in
+    a branch stays: its divisor may be zero where the branch is not taken. So does a quotient
+    of parameters alone, which a compiler takes out of the loop by itself.
     """
     fixed = {item.name for item in ode.parameters if item.range is None}
-    return map_expressions(ode, lambda expr: _change(expr, fixed))
+    changed = map_expressions(ode, lambda expr: _change(expr, fixed))
+    return replace(ode, bindings=changed.bindings, rates=changed.rates)
 
 
 def _change(expr: Expr, fixed: Collection[str]) -> Expr:

@@ -96,7 +96,7 @@ int diode_circuit_out(real t, const real *x, const real *u, const real *p, real 
     const real p_D_beta = p[diode_circuit_P_D_beta];
     const real b_D_psi = x_i;
     const real b_D = p_D_K*max0(x_D_e - p_D_beta*(b_D_psi + x_D_e)*(1/p_D_alpha));
-    y[diode_circuit_Y_load] = x_vc*(1/p_R);
+    y[diode_circuit_Y_load] = x_vc/p_R;
     y[diode_circuit_Y_D] = b_D;
     return diode_circuit_OK;
 }
