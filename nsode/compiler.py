@@ -171,6 +171,16 @@ class Model:
 
         return replace(self, ode=prune(self.ode, outputs))
 
+    def with_ledger(self) -> Model:
+        """Return the model with the energy of each element as further outputs.
+
+        ``N.stored`` in J, ``N.dissipated`` and ``N.given`` in W; see
+        :mod:`nsode.analysis.energy`.
+        """
+        from nsode.analysis.energy import ledger
+
+        return replace(self, ode=ledger(self.ode, self.inclusion))
+
     def baked(self, values: Mapping[str, float]) -> Model:
         """Return the model with some parameters as numbers, for good.
 
@@ -250,6 +260,7 @@ class Model:
         inputs: Mapping[str, Signal] | None = None,
         x0: Mapping[str, float] | None = None,
         start: float = 0.0,
+        tolerance: float | None = None,
         strict: bool = False,
         guard: bool = True,
     ) -> Trajectory:
@@ -270,6 +281,9 @@ class Model:
             times. Values are read at the start of a step and held over it.
         start
             The time at which the run starts.
+        tolerance
+            The relative error of a step, for a method that chooses its own; ``step`` is
+            then the grid on which inputs are read and rows may lie.
         strict
             Refuse what would draw a warning before the run.
         guard
@@ -287,7 +301,7 @@ class Model:
         return simulate(
             self.inclusion,
             self.ode,
-            Wish(duration, step, every, method, start),
+            Wish(duration, step, every, method, start, tolerance),
             overrides=parameters,
             signals=inputs,
             start=x0,

@@ -75,6 +75,10 @@ def _numbers(
     help="Write a parameter as this number, in SI, for good; may be repeated.",
 )  # fmt: skip
 @law_options
+@click.option(
+    "--ledger", is_flag=True,
+    help="Add what each element stores, dissipates and is given to the outputs.",
+)  # fmt: skip
 def command(
     model: str,
     target: str,
@@ -83,6 +87,7 @@ def command(
     prefix: str | None,
     outputs: list[str] | None,
     bake: dict[str, float],
+    ledger: bool,
     friction: str | None,
     contact: str | None,
 ) -> int:
@@ -93,6 +98,8 @@ def command(
     """
     loaded = load(model, friction=friction, contact=contact)
     complain(loaded.diagnostics, loaded.source)
+    if ledger:
+        loaded = loaded.with_ledger()
     whole = loaded.ode
     if outputs is not None:
         loaded = _only(loaded, outputs)

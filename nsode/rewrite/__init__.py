@@ -58,13 +58,17 @@ def replace_terms(
     states: list[AuxiliaryState] = []
     for item in inclusion.bindings:
         if isinstance(item, SetValuedTerm) and item.kind == kind:
-            text = " ".join(inclusion.source.slice(item.span).split())
+            text = _on_one_line(inclusion.source.slice(item.span))
             replacement = law(item.approximation.law).replace(item, text, velocities.get(item.name))
             bindings.extend(replacement.bindings)
             states.extend(replacement.states)
         else:
             bindings.append(item)
     return replace(inclusion, bindings=tuple(bindings)), states
+
+
+def _on_one_line(text: str) -> str:
+    return " ".join(re.sub(r"#[^\n]*", "", text).split())
 
 
 def append(system: DifferentialInclusion, auxiliary: Sequence[AuxiliaryState]) -> AugmentedODE:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
 from nsode.evaluate import evaluate
 from nsode.expr import Call, Expr, Name, Number, names
+from nsode.inclusion.elaborate import CONSTANTS
 from nsode.ode import Approximation, Check, DifferentialInclusion, Parameter, SetValuedTerm
 from nsode.regularizations import LAWS, Condition, Constant, law, laws_of
 from nsode.rewrite.fixed import Fixed
@@ -20,8 +21,9 @@ def constants(inclusion: DifferentialInclusion) -> tuple[Parameter, ...]:
     Raises
     ------
     ModelError
-        NS303 for an unknown setting, NS306 for an unknown law, NS301 and NS302 for
-        values that the law cannot use, NS308 for targets.
+        NS101 for a constant that is read and not there, NS303 for an unknown setting,
+        NS306 for an unknown law, NS301 and NS302 for values that the law cannot use, NS308
+        for targets.
     """
     formulas: dict[str, Expr | None] = {}
     owners: dict[str, SetValuedTerm] = {}
@@ -39,6 +41,9 @@ def constants(inclusion: DifferentialInclusion) -> tuple[Parameter, ...]:
             name = f"{term.name}.{constant.name}"
             formulas[name] = given.get(constant.name, fixed.formula(constant.default))
             owners[name] = term
+    problems.extend(_unknown(inclusion, formulas))
+    if problems:
+        raise ModelError(dict.fromkeys(problems), inclusion.source)
     values = {p.name: p.values[0] for p in inclusion.parameters if len(p.values) == 1}
     found: list[Parameter] = []
     for name, formula in formulas.items():
@@ -74,6 +79,26 @@ def needed(term: SetValuedTerm) -> tuple[Constant, ...]:
 def _by_kind(inclusion: DifferentialInclusion) -> list[SetValuedTerm]:
     """Return the terms in the order of their auxiliary states: first dio, then sgn."""
     return sorted(inclusion.terms, key=lambda term: term.kind)
+
+
+def _unknown(
+    inclusion: DifferentialInclusion, formulas: Mapping[str, Expr | None]
+) -> Iterator[Diagnostic]:
+    """Yield an error for each constant that is read and that no law of the model has."""
+    owners = {term.name for term in inclusion.terms}
+    given = (formula for formula in formulas.values() if formula is not None)
+    reading = (*given, *(state.initial for state in inclusion.states))
+    for name in (name for expr in reading for name in names(expr)):
+        owner, _, constant = name.id.rpartition(".")
+        if owner in owners and constant in CONSTANTS and name.id not in formulas:
+            listed = ", ".join(f"`{known}`" for known in formulas)
+            yield Diagnostic(
+                "NS101",
+                f"there is no constant `{name.id}`",
+                (Label(name.span, "read here"),),
+                notes=(f"the constants of the laws in this model are {listed}",),
+                help=suggest(name.id, formulas),
+            )
 
 
 def _given(term: SetValuedTerm) -> Mapping[str, Expr]:

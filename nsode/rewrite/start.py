@@ -76,6 +76,7 @@ class _Start:
     parameters: set[str]
     known: dict[tuple[str, int | None], float] = field(default_factory=dict)
     depth: int = 0
+    long: dict[int, bool] = field(default_factory=dict)
 
     @classmethod
     def of(cls, ode: AugmentedODE, missing: float) -> _Start:
@@ -120,9 +121,15 @@ class _Start:
         raise _GiveUpError
 
     def value(self, expr: Expr, indices: dict[str, int]) -> float:
-        if any(isinstance(node, Sum) and len(node.range) > _LENGTH for node in walk(expr)):
+        if self._is_long(expr):
             raise _GiveUpError
         return evaluate(expr, self.lookup, indices)
+
+    def _is_long(self, expr: Expr) -> bool:
+        if id(expr) not in self.long:
+            sums = (node for node in walk(expr) if isinstance(node, Sum))
+            self.long[id(expr)] = any(len(node.range) > _LENGTH for node in sums)
+        return self.long[id(expr)]
 
     def culprit(self, expr: Expr, indices: dict[str, int]) -> Expr | None:
         """Return the innermost part that is not finite though what it reads is."""

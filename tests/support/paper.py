@@ -121,11 +121,8 @@ def dry_friction(t: float, x: Values, p: Values) -> Rates:
     (f,) = sgn_force(p["F0"], p["F.K"], p["F.beta"], [x["F.a"]], [x["v"]])
     (a,) = sgn_rate([f], p["F.K"], p["F.beta"], [x["F.a"]])
     rise = np.minimum if not isinstance(p["top"], Term) else _least
-    if t < 2:
-        fe = rise(p["top"], p["ramp"] * t)
-    else:
-        fe = p["mean"] + p["swing"] * _cos(p["omega"] * t)
-    return {"v": (fe - f) / p["M"], "p": x["v"], "F.a": a}
+    early, late = rise(p["top"], p["ramp"] * t), p["mean"] + p["swing"] * _cos(p["omega"] * t)
+    return {"v": ((early if t < 2 else late) - f) / p["M"], "p": x["v"], "F.a": a}
 
 
 def _least(a: Any, b: Any) -> Any:
