@@ -7,6 +7,7 @@ the e's, then the a's. The result is the paper's (32).
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
