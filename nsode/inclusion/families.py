@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from nsode.diagnostics import ModelError, refuse
@@ -11,16 +11,22 @@ from nsode.ode import Definition, LinearSolve, Placed, SetValuedTerm
 from nsode.passes.split import pieces, settle
 
 
-def choose(items: list[Expr], over: IndexRange) -> Expr:
-    """Return the item that belongs to the index of ``over``, by halving the range."""
+def choose(items: Sequence[Expr], over: IndexRange) -> Expr:
+    """Return the item that belongs to the index of ``over``."""
+    return choose_until([(over.first + k, item) for k, item in enumerate(items)], over.variable)
+
+
+def choose_until(items: Sequence[tuple[int, Expr]], variable: str) -> Expr:
+    """Return the item of the first bound that the index does not exceed.
+
+    The conditions halve the items, so that a long list makes no deep expression.
+    """
     if len(items) == 1:
-        return items[0]
-    half = len(items) // 2
-    last = over.first + half - 1
-    here = Call("<=", (Index(over.variable), Number(float(last))))
-    below = choose(items[:half], IndexRange(over.variable, over.first, last))
-    above = choose(items[half:], IndexRange(over.variable, last + 1, over.last))
-    return If(here, below, above, span=items[0].span)
+        return items[0][1]
+    middle = len(items) // 2
+    until = Call("<=", (Index(variable), Number(float(items[middle - 1][0]))))
+    low, high = choose_until(items[:middle], variable), choose_until(items[middle:], variable)
+    return If(until, low, high, span=low.span.to(high.span))
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,12 +2,59 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from nsode.expr import Index, IndexRange
 from nsode.inclusion.coverage import doubled
 from nsode.inclusion.equations import Row, Unknown, state_of
+
+#: The first and the last element of a family; a scalar is its own element 0.
+Elements = tuple[int, int]
+
+
+@dataclass(slots=True)
+class _Covered:
+    """The elements of a family whose derivatives are known, as rising runs."""
+
+    runs: list[Elements] = field(default_factory=list)
+
+    def add(self, new: Elements) -> None:
+        first, last = new
+        if first > last:
+            return
+        start = bisect_left(self.runs, first - 1, key=lambda run: run[1])
+        end = bisect_right(self.runs, last + 1, key=lambda run: run[0])
+        for low, high in self.runs[start:end]:
+            first, last = min(first, low), max(last, high)
+        self.runs[start:end] = [(first, last)]
+
+    def holds(self, wanted: Elements) -> bool:
+        first, last = wanted
+        k = bisect_left(self.runs, last, key=lambda run: run[1])
+        return first > last or (k < len(self.runs) and self.runs[k][0] <= first)
+
+
+@dataclass(slots=True)
+class _Readers:
+    """The rows that read elements of one family: single elements, or several at once."""
+
+    single: dict[int, list[int]] = field(default_factory=dict)
+    several: list[int] = field(default_factory=list)
+
+    def add(self, read: Elements, row: int) -> None:
+        first, last = read
+        (self.single.setdefault(first, []) if first == last else self.several).append(row)
+
+    def of(self, known: Elements) -> list[int]:
+        """Return the rows that read some of these elements."""
+        first, last = known
+        if last - first < len(self.single):
+            elements = [k for k in range(first, last + 1) if k in self.single]
+        else:
+            elements = [k for k in self.single if first <= k <= last]
+        return [*self.several, *(row for k in elements for row in self.single[k])]
 
 
 @dataclass(slots=True)
@@ -21,15 +68,16 @@ class Matching:
     rows: Sequence[Row]
     open: list[list[Unknown]] = field(init=False)
     said: dict[int, Unknown] = field(default_factory=dict)
-    _covered: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
-    _readers: dict[str, list[int]] = field(default_factory=dict)
+    _covered: dict[str, _Covered] = field(default_factory=dict)
+    _readers: dict[str, _Readers] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.open = [list(row.unknowns) for row in self.rows]
         for k, unknowns in enumerate(self.open):
             if len(unknowns) > 1:
-                for state in {state_of(unknown) for unknown in unknowns}:
-                    self._readers.setdefault(state, []).append(k)
+                for unknown in unknowns:
+                    readers = self._readers.setdefault(state_of(unknown), _Readers())
+                    readers.add(elements(unknown, self.rows[k].range), k)
 
     def match(self) -> list[list[int]]:
         """Match rows with derivatives.
@@ -55,15 +103,16 @@ class Matching:
             k = ready.pop()
             unknown = self.open[k][0]
             self.said[k] = unknown
-            state = state_of(unknown)
-            self._covered.setdefault(state, []).append(elements(unknown, self.rows[k].range))
-            waiting = [r for r in self._readers.get(state, ()) if len(self.open[r]) > 1]
-            self._readers[state] = waiting
+            state, said = state_of(unknown), elements(unknown, self.rows[k].range)
+            self._covered.setdefault(state, _Covered()).add(said)
+            waiting = self._readers[state].of(said) if state in self._readers else ()
             ready.extend(r for r in waiting if self._drop_known(r, state, k))
 
     def _drop_known(self, k: int, state: str, by: int) -> bool:
         """Drop what is known now from an open row; tell whether one derivative is left."""
-        row = self.rows[k]
+        row, before = self.rows[k], len(self.open[k])
+        if k in self.said or before == 1:
+            return False
         kept = [
             unknown
             for unknown in self.open[k]
@@ -72,14 +121,10 @@ class Matching:
         if not kept:
             raise doubled(state, row.span, self.rows[by].span)
         self.open[k] = kept
-        return len(kept) == 1
+        return len(kept) == 1 < before
 
     def _is_covered(self, unknown: Unknown, over: IndexRange | None) -> bool:
-        first, last = elements(unknown, over)
-        for low, high in sorted(self._covered[state_of(unknown)]):
-            if low <= first <= high:
-                first = high + 1
-        return first > last
+        return self._covered[state_of(unknown)].holds(elements(unknown, over))
 
     def _peel(self) -> None:
         """Let a row say the derivative that no other open row holds."""
@@ -122,7 +167,7 @@ class Matching:
         return list(groups.values())
 
 
-def elements(unknown: Unknown, over: IndexRange | None) -> tuple[int, int]:
+def elements(unknown: Unknown, over: IndexRange | None) -> Elements:
     """Return the first and last element that a derivative stands for in its row."""
     match unknown.at:
         case None:

@@ -10,7 +10,6 @@ from nsode.diagnostics import ModelError, refuse
 from nsode.expr import (
     Call,
     Expr,
-    If,
     Index,
     IndexRange,
     Name,
@@ -31,6 +30,7 @@ from nsode.inclusion.equations import (
     scaled_by,
     state_of,
 )
+from nsode.inclusion.families import choose_until
 from nsode.inclusion.matching import Matching
 from nsode.inclusion.regular import Constants, check_regular
 from nsode.inclusion.values import is_zero, total
@@ -167,11 +167,8 @@ def _whole(pieces: Sequence[Rate], state: State) -> Rate:
     assert state.range is not None
     index = free_index(state.range.variable, (piece.value for piece in pieces))
     ranges = [(p.range, p) for p in pieces if p.range is not None]
-    parts = sorted((over.last, _value(p, index)) for over, p in ranges if len(over))
-    value = parts[-1][1]
-    for last, part in reversed(parts[:-1]):
-        until = Call("<=", (Index(index), Number(float(last))))
-        value = If(until, part, value, span=part.span)
+    parts = sorted(((over.last, p) for over, p in ranges if len(over)), key=lambda part: part[0])
+    value = choose_until([(last, _value(p, index)) for last, p in parts], index)
     over = IndexRange(index, state.range.first, state.range.last)
     return Rate(state.name, value, over, span=pieces[0].span)
 
