@@ -169,7 +169,10 @@ class Model:
         """
         from nsode.passes.prune import prune
 
-        return replace(self, ode=prune(self.ode, outputs))
+        try:
+            return replace(self, ode=prune(self.ode, outputs))
+        except ValueError as error:
+            raise ModelError([Diagnostic("NS101", str(error))], self.source) from None
 
     def with_ledger(self) -> Model:
         """Return the model with the energy of each element as further outputs.

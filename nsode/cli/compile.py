@@ -12,6 +12,7 @@ from nsode.backends import TARGETS, Options
 from nsode.cli.failure import USAGE, io_diagnostic
 from nsode.cli.model import law_options, load, summary
 from nsode.cli.terminal import bold, complain, quiet, say
+from nsode.diagnostics import ModelError
 from nsode.files import write_all
 from nsode.ode import AugmentedODE
 from nsode.passes.count import operations
@@ -120,8 +121,9 @@ def command(
 def _only(model: Model, outputs: list[str]) -> Model:
     try:
         return model.only(outputs)
-    except ValueError as error:
-        raise click.BadParameter(str(error), param_hint="`--outputs`") from error
+    except ModelError as error:
+        message = error.diagnostics[0].message
+        raise click.BadParameter(message, param_hint="`--outputs`") from error
 
 
 def _show_dropped(whole: AugmentedODE, kept: AugmentedODE) -> None:

@@ -113,7 +113,7 @@ def _restrict(ode: AugmentedODE, asked: tuple[str, ...]) -> AugmentedODE:
 
 
 def _selects(asked: str, item: Placed) -> bool:
-    return item.name == asked or item.name.startswith(asked + ".")
+    return item.name == asked or item.name.startswith((f"{asked}.", f"{asked}["))
 
 
 def _dependencies(ode: AugmentedODE) -> dict[str, set[str]]:
