@@ -26,8 +26,9 @@ from nsode.inclusion.values import (
 from nsode.syntax.ast import Bracket, Component, Group, Reduction, Subscript
 
 _FIELDS = {"x": 1, "y": 2, "z": 3}
-#: The constants of an element that initial values and settings may read.
-CONSTANTS = ("K", "alpha", "beta")
+#: The constants of an element, under one law or another, that initial values and settings
+#: may read.
+CONSTANTS = ("K", "alpha", "beta", "B", "D", "F0", "c", "n", "epsilon")
 
 
 def elaborate(expr: Expr, scope: Scope) -> Value:

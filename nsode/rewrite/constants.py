@@ -9,6 +9,7 @@ from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
 from nsode.evaluate import evaluate
 from nsode.expr import Call, Expr, Name, Number, names
 from nsode.inclusion.elaborate import CONSTANTS
+from nsode.inclusion.order import loop, order
 from nsode.ode import Approximation, Check, DifferentialInclusion, Parameter, SetValuedTerm
 from nsode.regularizations import LAWS, Condition, Constant, law, laws_of
 from nsode.rewrite.fixed import Fixed
@@ -41,19 +42,19 @@ def constants(inclusion: DifferentialInclusion) -> tuple[Parameter, ...]:
             name = f"{term.name}.{constant.name}"
             formulas[name] = given.get(constant.name, fixed.formula(constant.default))
             owners[name] = term
-    problems.extend(_unknown(inclusion, formulas))
-    if problems:
-        raise ModelError(dict.fromkeys(problems), inclusion.source)
-    values = {p.name: p.values[0] for p in inclusion.parameters if len(p.values) == 1}
+    unknown = {} if problems else dict.fromkeys(_unknown(inclusion, formulas))
+    if unknown:
+        raise ModelError(unknown, inclusion.source)
+    single = {p.name: p.values[0] for p in inclusion.parameters if len(p.values) == 1}
+    values = _values(formulas, single)
     found: list[Parameter] = []
     for name, formula in formulas.items():
-        value = math.nan if formula is None else _value(name, formulas, values, ())
         read = formula if formula is not None and any(True for _ in names(formula)) else None
         span = NOWHERE if formula is None else formula.span
         if span == NOWHERE:
             span = owners[name].span
         found.append(
-            Parameter(name, (value,), formula=read, constant_of=owners[name].name, span=span)
+            Parameter(name, (values[name],), formula=read, constant_of=owners[name].name, span=span)
         )
     problems.extend(_broken(terms, found, formulas))
     if problems:
@@ -145,20 +146,26 @@ def _check_law(term: SetValuedTerm) -> None:
     )
 
 
-def _value(
-    name: str,
-    formulas: Mapping[str, Expr | None],
-    values: Mapping[str, float],
-    inside: tuple[str, ...],
-) -> float:
-    formula = formulas.get(name)
-    if name in values:
-        return values[name]
-    if formula is None:
-        return math.nan
-    if name in inside:
-        raise refuse("NS106", f"`{name}` is defined by itself", formula.span)
-    return evaluate(formula, lambda other, at: _value(other, formulas, values, (*inside, name)))
+def _values(
+    formulas: Mapping[str, Expr | None], parameters: Mapping[str, float]
+) -> Mapping[str, float]:
+    """Return the value of each constant, NaN where the model gives none."""
+    given = {name: formula for name, formula in formulas.items() if formula is not None}
+    reads = {name: [n.id for n in names(formula)] for name, formula in given.items()}
+    ordered = order(list(given), reads)
+    if len(ordered) < len(given):
+        raise _circle(loop(list(given), reads), given)
+    found = dict.fromkeys(formulas, math.nan) | dict(parameters)
+    for name in ordered:
+        found[name] = evaluate(given[name], lambda other, at: found[other])
+    return found
+
+
+def _circle(constants: Sequence[str], formulas: Mapping[str, Expr]) -> ModelError:
+    path = " -> ".join(f"`{name}`" for name in [*constants[:5], constants[0]])
+    labels = tuple(Label(formulas[name].span, f"gives `{name}`") for name in constants[:5])
+    message = f"these constants are defined by each other: {path}"
+    return ModelError([Diagnostic("NS106", message, labels, help="give one of them a number")])
 
 
 def _broken(

@@ -205,6 +205,14 @@ def test_what_reads_a_constant_that_goes_keeps_its_value():
     assert error.code == "NS306"
 
 
+def test_constants_of_every_law_can_be_read_and_those_that_are_not_there_are_refused():
+    text = BALL.replace("p = 1", "p = N.B/100")
+    model = nsode.loads(text + "approximate N with kelvin_voigt: K = 1e5, B = N.K/1e3")
+    assert model.x0[0] == 1
+    error, _ = refusal(text + "approximate N: K = 1e5, beta = 4e-3, alpha = 1e-3")
+    assert error.message == "there is no constant `N.B`"
+
+
 def test_warnings_of_the_old_law_go_with_it():
     text = BALL + "approximate N: K = 1e5, beta = 4e-3, alpha = 1e-5\nsimulate 1 step 1e-3\n"
     model = nsode.loads(text)
