@@ -33,7 +33,12 @@ _PLOT = "-"  # what `--plot` without a file stands for
 @click.argument("model")
 @click.option("--for", "duration", type=float, metavar="SECONDS", help="How long.")
 @click.option("--step", type=float, metavar="SECONDS", help="The size of a step.")
-@click.option("--method", metavar="NAME", help="The integrator.  [default: the model's, or rk4]")
+@click.option(
+    "--method", metavar="NAME",
+    help="rk4, heun, euler; dopri5, cvodes or SciPy's, which choose their own steps.  "
+    "[default: the model's, or rk4]",
+)  # fmt: skip
+@click.option("--tol", "tolerance", type=float, help="Relative error of such a method's steps.")
 @click.option(
     "-p", "--parameter", "parameters", multiple=True, metavar="NAME=VALUE",
     help="Another value of a parameter or a constant, such as N.K=1e6, in SI.",
@@ -59,6 +64,7 @@ def command(
     duration: float | None,
     step: float | None,
     method: str | None,
+    tolerance: float | None,
     parameters: tuple[str, ...],
     inputs: tuple[str, ...],
     every: int | None,
@@ -80,7 +86,7 @@ def command(
     drawing = None if plot is None else Path(f"{loaded.name}.png" if plot == _PLOT else plot)
     _check_places(output, drawing)
     complain([d for d in loaded.diagnostics if d.code != "NS407"], loaded.source)
-    wish = Wish(duration, step, every, method)
+    wish = Wish(duration, step, every, method, tolerance=tolerance)
 
     def tell(diagnostic: Diagnostic) -> None:
         complain([diagnostic], loaded.source)

@@ -12,8 +12,8 @@ from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.integrators import REGISTRY, RungeKutta
 from nsode.ode import AugmentedODE, element_names
 from nsode.simulate.inputs import Inputs
-from nsode.simulate.loop import Record, Vector
-from nsode.simulate.native import BROKEN, NOT_FINITE, SINGULAR, Native
+from nsode.simulate.loop import Record
+from nsode.simulate.machine import BROKEN, NOT_FINITE, SINGULAR, Machine, Vector
 from nsode.simulate.settings import Settings
 
 if TYPE_CHECKING:
@@ -29,14 +29,19 @@ class RunError(ModelError):
 
 
 def cause(
-    ode: AugmentedODE, native: Native, settings: Settings, inputs: Inputs, p: Vector, found: Record
+    ode: AugmentedODE,
+    machine: Machine,
+    settings: Settings,
+    inputs: Inputs,
+    p: Vector,
+    found: Record,
 ) -> Diagnostic:
     """Return why the step after the last one of a record failed."""
     now = settings.start + found.taken * settings.step
     where = f"in step {found.taken + 1:,} at t = {now:.6g} s"
     kept = f"{len(found.t):,} rows up to there are kept"
     if found.status == NOT_FINITE:
-        names = _not_finite(ode, native, settings, now, inputs.at(now), p, found.x)
+        names = _not_finite(ode, machine, settings, now, inputs.at(now), p, found.x)
         return Diagnostic(
             "NS504",
             f"{names} no longer finite {where}",
@@ -68,11 +73,17 @@ def interrupted(settings: Settings, found: Record) -> Diagnostic:
 
 
 def _not_finite(
-    ode: AugmentedODE, native: Native, settings: Settings, t: float, u: Vector, p: Vector, x: Vector
+    ode: AugmentedODE,
+    machine: Machine,
+    settings: Settings,
+    t: float,
+    u: Vector,
+    p: Vector,
+    x: Vector,
 ) -> str:
     """Return which states break; the step is repeated, for the C does not tell."""
     with np.errstate(all="ignore"):
-        after = _step(native, settings, t, u, p, x)
+        after = _step(machine, settings, t, u, p, x)
     names = element_names(ode.states)
     bad = [f"`{name}`" for name, value in zip(names, after, strict=True) if not np.isfinite(value)]
     if not bad:
@@ -81,13 +92,15 @@ def _not_finite(
     return f"{shown} {'is' if len(bad) == 1 else 'are'}"
 
 
-def _step(native: Native, settings: Settings, t: float, u: Vector, p: Vector, x: Vector) -> Vector:
+def _step(
+    machine: Machine, settings: Settings, t: float, u: Vector, p: Vector, x: Vector
+) -> Vector:
     scheme, h = REGISTRY.get(settings.method), settings.step
     if not isinstance(scheme, RungeKutta):
-        return x + h * native.rates(t, x, u, p)
+        return x + h * machine.rates(t, x, u, p)
     slopes: list[Vector] = []
     for node, row in zip(scheme.c, scheme.a, strict=True):
-        slopes.append(native.rates(t + float(node) * h, x + h * _mean(row, slopes, x), u, p))
+        slopes.append(machine.rates(t + float(node) * h, x + h * _mean(row, slopes, x), u, p))
     return x + h * _mean(scheme.b, slopes, x)
 
 

@@ -14,7 +14,7 @@ from nsode.ode import (
     SetValuedTerm,
     size,
 )
-from nsode.simulate.loop import Vector
+from nsode.simulate.machine import Vector
 from nsode.simulate.settings import Settings
 
 

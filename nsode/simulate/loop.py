@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 
 from nsode.integrators.pairs import PAIRS
 from nsode.simulate.inputs import Inputs
-from nsode.simulate.native import OK, Native
+from nsode.simulate.machine import OK, Machine, Vector
 from nsode.simulate.settings import Settings
 
-Vector = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
 _BREATH = 0.05  # seconds from one return of the C to the next
@@ -41,7 +40,7 @@ class Record:
 
 
 def record(
-    native: Native,
+    machine: Machine,
     settings: Settings,
     start: Vector,
     inputs: Inputs,
@@ -62,14 +61,14 @@ def record(
     p = p if len(p) else np.zeros(1)
     x = np.array(start) if len(start) else np.zeros(1)
     rows = settings.steps // settings.every + 1
-    xs, ys = np.empty((rows, native.nx)), np.empty((rows, native.ny))
+    xs, ys = np.empty((rows, machine.nx)), np.empty((rows, machine.ny))
     xs[0] = start
-    ys[0] = native.outputs(settings.start, x, inputs.at(settings.start), p)
+    ys[0] = machine.outputs(settings.start, x, inputs.at(settings.start), p)
     taken, status, interrupted, chunk = 0, OK, False, _FIRST
     held = inputs.constant[None, :]
     reach = None
     if settings.method in PAIRS:
-        reach = native.reach(settings.steps, settings.tolerances)
+        reach = machine.reach(settings.steps, settings.tolerances)
     begin = before = time.perf_counter()
     try:
         while taken < settings.steps and status == OK:
@@ -78,7 +77,7 @@ def record(
             if inputs.varying:
                 u = inputs.rows(instants(settings, np.arange(taken, taken + count + 1)))
             row = taken // settings.every + 1
-            advance = native.run(
+            advance = machine.run(
                 (settings.start, settings.step),
                 taken, count, settings.every, x, u, p, xs[row:], ys[row:], reach,
             )  # fmt: skip
@@ -96,10 +95,10 @@ def record(
     if taken != kept[-1]:  # the end is a row, wherever it falls
         now = settings.start + taken * settings.step
         kept = np.append(kept, taken)
-        xs = np.vstack([xs, x[: native.nx]])
-        ys = np.vstack([ys, native.outputs(now, x, inputs.at(now), p)])
+        xs = np.vstack([xs, x[: machine.nx]])
+        ys = np.vstack([ys, machine.outputs(now, x, inputs.at(now), p)])
     t = instants(settings, kept)
-    return Record(t, xs, ys, x[: native.nx], taken, status, interrupted, seconds)
+    return Record(t, xs, ys, x[: machine.nx], taken, status, interrupted, seconds)
 
 
 def instants(settings: Settings, steps: NDArray[np.int64]) -> Vector:

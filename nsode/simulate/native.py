@@ -8,39 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nsode.ode import AugmentedODE, size
 from nsode.simulate.build import PREFIX
-
-Vector = NDArray[np.float64]
+from nsode.simulate.machine import Advance, Reach, Vector
 
 _reals = POINTER(c_double)
-
-#: Status codes of the generated C; see its header.
-OK, NOT_FINITE, SINGULAR, BROKEN = 0, 1, 2, 16
-
-
-@dataclass(frozen=True, slots=True)
-class Advance:
-    """How far a call of :meth:`Native.run` came: steps taken, and the status it ended with."""
-
-    done: int
-    status: int
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Reach:
-    """The end of a run in steps, relative and absolute tolerance, and the step at hand."""
-
-    total: int
-    tolerance: Vector
-    memory: Vector
-
-    def arguments(self) -> tuple[object, ...]:
-        """Return the further arguments of ``run``."""
-        memory = self.memory.ctypes.data_as(ctypes.c_void_p)
-        return c_longlong(self.total), _pointer(self.tolerance), memory
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,7 +70,7 @@ class Native:
             c_longlong(first), c_longlong(count), c_longlong(every),
             _pointer(x), _pointer(u), c_longlong(stride), _pointer(p),
             _pointer(xs), _pointer(ys), ctypes.byref(done),
-            *(() if reach is None else reach.arguments()),
+            *_arguments(reach),
         )  # fmt: skip
         return Advance(done.value, status)
 
@@ -109,6 +82,13 @@ class Native:
     def _function(self, name: str) -> ctypes._FuncPointer:
         function: ctypes._FuncPointer = getattr(self.handle, f"{PREFIX}_{name}")
         return function
+
+
+def _arguments(reach: Reach | None) -> tuple[object, ...]:
+    if reach is None:
+        return ()
+    memory = reach.memory.ctypes.data_as(ctypes.c_void_p)
+    return c_longlong(reach.total), _pointer(reach.tolerance), memory
 
 
 def _pointer(array: Vector) -> ctypes._Pointer[c_double]:

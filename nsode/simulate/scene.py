@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 
 from nsode.diagnostics import Diagnostic, ModelError
+from nsode.integrators import REGISTRY
+from nsode.integrators.pairs import PAIRS
 from nsode.ode import AugmentedODE, DifferentialInclusion
 from nsode.simulate.build import Compiler, compiler, library
-from nsode.simulate.native import Native, load
+from nsode.simulate.machine import Machine
+from nsode.simulate.native import load
 from nsode.simulate.observe import Observed, observe
+from nsode.simulate.virtual import virtual
 
 _KEPT = 32  # models that are remembered
 
@@ -22,8 +27,8 @@ class Scene:
     """What every run of one model shares."""
 
     observed: Observed
-    native: Native
-    compiler: Compiler
+    machine: Machine
+    compiler: Compiler | None
     foreseen: dict[Foreseen, tuple[Diagnostic, ...]] = field(default_factory=dict)
 
 
@@ -40,16 +45,6 @@ def scene(inclusion: DifferentialInclusion, ode: AugmentedODE, method: str) -> S
         NS509 if it cannot be compiled, NS510 if the cache is not safe.
     """
     using = compiler()
-    if using is None:
-        raise ModelError(
-            [
-                Diagnostic(
-                    "NS509",
-                    "there is no C compiler on this machine",
-                    help="install gcc or clang, or name one in CC",
-                )
-            ]
-        )
     key = (id(inclusion), id(ode), method)
     found = _known.get(key)
     if found is None or found[2].compiler != using:
@@ -62,7 +57,28 @@ def scene(inclusion: DifferentialInclusion, ode: AugmentedODE, method: str) -> S
 
 
 def _made(
-    inclusion: DifferentialInclusion, ode: AugmentedODE, method: str, using: Compiler
+    inclusion: DifferentialInclusion, ode: AugmentedODE, method: str, using: Compiler | None
 ) -> Scene:
     observed = observe(inclusion, ode)
-    return Scene(observed, load(observed.ode, library(observed.ode, method, using)), using)
+    stepped = method if method in REGISTRY or method in PAIRS else next(iter(REGISTRY))
+    if using is not None:
+        return Scene(observed, load(observed.ode, library(observed.ode, stepped, using)), using)
+    if stepped in PAIRS or find_spec("casadi") is None:
+        raise ModelError([_no_compiler(stepped)])
+    return Scene(observed, virtual(observed.ode, stepped), None)
+
+
+def _no_compiler(method: str) -> Diagnostic:
+    way_out = "install gcc or clang, or name one in CC"
+    if method in REGISTRY:
+        way_out += "; `pip install 'nsode[casadi]'` runs models without, slowly"
+    return Diagnostic("NS509", "there is no C compiler on this machine", help=way_out)
+
+
+def slowly(made: Scene) -> list[Diagnostic]:
+    """Return the word on a run without a compiler."""
+    if made.compiler is not None:
+        return []
+    message = "no C compiler: CasADi runs the model, some hundred times slower"
+    way_out = "install gcc or clang, or name one in CC"
+    return [Diagnostic("NS509", message, help=way_out, severity="note")]

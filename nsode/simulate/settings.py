@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from importlib.util import find_spec
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,13 @@ from nsode.ode import Run
 #: What a run may ask for.
 MOST_STEPS = 10**9
 MOST_BYTES = 2 * 2**30
+
+#: Integrators of other libraries by name, with the library.
+SOLVERS = {
+    "cvodes": "casadi",
+    "RK45": "scipy", "RK23": "scipy", "DOP853": "scipy",
+    "Radau": "scipy", "BDF": "scipy", "LSODA": "scipy",
+}  # fmt: skip
 
 _USUAL_TOLERANCE = 1e-8
 _SMALL = 1e-3  # below this a state is judged by its absolute error, in SI
@@ -120,7 +128,7 @@ def settle(wish: Wish, run: Run, columns: int) -> tuple[Settings, list[Diagnosti
 
 def methods() -> tuple[str, ...]:
     """Return the names of the methods that a run can be made with."""
-    return (*REGISTRY, *PAIRS)
+    return (*REGISTRY, *PAIRS, *SOLVERS)
 
 
 def _missing(duration: float | None, step: float | None) -> list[Diagnostic]:
@@ -149,6 +157,10 @@ def _unsound(what: str, value: float | None) -> list[Diagnostic]:
 
 
 def _unknown(method: str, run: Run | None) -> list[Diagnostic]:
+    library = SOLVERS.get(method)
+    if library is not None and find_spec(library) is None:
+        way_out = f"pip install 'nsode[{library}]'"
+        return [Diagnostic("NS501", f"`{method}` needs `{library}`", help=way_out)]
     if method in methods():
         return []
     return [

@@ -14,15 +14,15 @@ from nsode import __version__
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.integrators import REGISTRY
 from nsode.ode import AugmentedODE, DifferentialInclusion, Output, State, element_names, size
-from nsode.simulate import failure, parameters
+from nsode.simulate import failure, parameters, solvers
 from nsode.simulate.foresee import foresee
 from nsode.simulate.inputs import Signal, inputs
-from nsode.simulate.loop import Progress, Record, Vector, record
-from nsode.simulate.native import OK
+from nsode.simulate.loop import Progress, Record, record
+from nsode.simulate.machine import OK, Vector
 from nsode.simulate.observe import Observed
 from nsode.simulate.parameters import Value
-from nsode.simulate.scene import Scene, scene
-from nsode.simulate.settings import Settings, Wish, settle
+from nsode.simulate.scene import Scene, scene, slowly
+from nsode.simulate.settings import SOLVERS, Settings, Wish, settle
 from nsode.simulate.trajectory import Trajectory
 
 
@@ -106,14 +106,18 @@ def simulate(
     settings, remarks = settle(wish, ode.run, _columns(ode))
     given = inputs(ode, signals or {}, settings)
     made = scene(inclusion, ode, settings.method)
-    _say([*remarks, *_foreseen(made, inclusion, ode, settings, p)], manner, ode)
-    x0 = made.native.initial(p if len(p) else np.zeros(1))
+    _say([*remarks, *slowly(made), *_foreseen(made, inclusion, ode, settings, p)], manner, ode)
+    x0 = made.machine.initial(p if len(p) else np.zeros(1))
     parameters.states(ode, x0, start or {})
-    found = record(made.native, settings, x0, given, p, manner.progress)
+    if settings.method in SOLVERS:
+        task = solvers.Task(ode, made.machine, settings, given, p)
+        found = solvers.record(task, x0, manner.progress)
+    else:
+        found = record(made.machine, settings, x0, given, p, manner.progress)
     trajectory = _trajectory(made, settings, p, signals or {}, found)
     if found.status != OK:
         observed = made.observed.ode
-        why = failure.cause(observed, made.native, settings, given, p, found)
+        why = failure.cause(observed, made.machine, settings, given, p, found)
         raise failure.RunError(why, ode, trajectory)
     if found.interrupted:
         manner.tell(failure.interrupted(settings, found))
