@@ -13,7 +13,7 @@ from nsode.backends import Options
 from nsode.backends import emit as emit_target
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.files import write_all
-from nsode.inclusion import build
+from nsode.inclusion.build import build
 from nsode.ode import AugmentedODE, DifferentialInclusion, size
 from nsode.regularizations import Kind
 from nsode.rewrite import rewrite

@@ -198,6 +198,28 @@ class AuxiliaryState:
 Definition = Binding | LinearSolve | SetValuedTerm
 
 
+def defined(item: Definition) -> tuple[str, ...]:
+    """Return the names that a definition defines."""
+    match item:
+        case Binding():
+            return (item.name,)
+        case LinearSolve():
+            return item.unknowns
+        case SetValuedTerm():
+            return item.multiplier
+
+
+def expressions(item: Definition) -> tuple[Expr, ...]:
+    """Return every expression that a definition reads."""
+    match item:
+        case Binding():
+            return (item.value,)
+        case LinearSolve():
+            return (*(entry for row in item.matrix for entry in row), *item.right)
+        case SetValuedTerm():
+            return item.argument if item.factor is None else (*item.argument, item.factor)
+
+
 @dataclass(frozen=True, slots=True)
 class System:
     """x' = f(t, x, u, p, bindings) with outputs; bindings in an order that computes.

@@ -14,9 +14,9 @@ from dataclasses import replace
 
 from nsode.analysis.local import LAW
 from nsode.derivative import time_derivatives
-from nsode.derivative.forward import Row, defined
+from nsode.derivative.forward import Row
 from nsode.expr import Call, Expr, Index, Name, Number, add, divide, multiply, negate, subtract
-from nsode.ode import AugmentedODE, DifferentialInclusion, Output, Rate, SetValuedTerm
+from nsode.ode import AugmentedODE, DifferentialInclusion, Output, Rate, SetValuedTerm, defined
 
 _HALF = Number(0.5)
 

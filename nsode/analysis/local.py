@@ -14,7 +14,6 @@ import numpy as np
 
 from nsode.analysis.point import Matrix, Point, Vector, assemble, parameters, start
 from nsode.derivative import Jacobian, Row, linearize, time_derivatives
-from nsode.derivative.forward import defined
 from nsode.expr import TIME, Expr, names
 from nsode.ode import (
     Binding,
@@ -25,6 +24,7 @@ from nsode.ode import (
     Rate,
     SetValuedTerm,
     Slot,
+    defined,
     element,
     element_names,
     layout,

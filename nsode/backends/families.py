@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from nsode.expr import TIME, IndexRange
-from nsode.ode import AugmentedODE, Placed
-from nsode.passes.prune import defines
+from nsode.ode import AugmentedODE, Placed, defined
 
 
 def ranges(ode: AugmentedODE) -> dict[str, IndexRange | None]:
@@ -12,7 +11,7 @@ def ranges(ode: AugmentedODE) -> dict[str, IndexRange | None]:
     placed: list[Placed] = [*ode.parameters, *ode.inputs, *ode.states]
     found: dict[str, IndexRange | None] = {TIME: None, **{i.name: i.range for i in placed}}
     for item in ode.bindings:
-        for name in defines(item):
+        for name in defined(item):
             found[name] = _cover(found.get(name), item.range)
     return found
 

@@ -20,7 +20,7 @@ from nsode.expr import (
     multiply,
     negate,
 )
-from nsode.ode import Binding, Definition, LinearSolve, Rate, SetValuedTerm, System
+from nsode.ode import Binding, Definition, LinearSolve, Rate, SetValuedTerm, System, defined
 
 Direction = Callable[[Name], Expr | None]
 
@@ -183,16 +183,6 @@ def _read(derived: Expr | None, at: Index | None) -> Expr | None:
         case _:
             return derived
 
-
-def defined(item: Definition) -> tuple[str, ...]:
-    """Return the names that a definition defines."""
-    match item:
-        case Binding(name):
-            return (name,)
-        case LinearSolve(unknowns):
-            return unknowns
-        case SetValuedTerm(multiplier=multiplier):
-            return multiplier
 
 
 def merged_rates(rates: Iterable[Rate]) -> dict[str, Binding]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from math import prod
 from typing import TYPE_CHECKING, NamedTuple
 
-from nsode.derivative.forward import Row, defined
+from nsode.derivative.forward import Row
 from nsode.derivative.parts import with_parts
 from nsode.derivative.rules import (
     ONE,
@@ -29,7 +29,16 @@ from nsode.derivative.rules import (
     times,
 )
 from nsode.expr import Expr, Index, IndexRange, Name, Number, add, multiply, negate
-from nsode.ode import AugmentedODE, Binding, Definition, LinearSolve, Rate, SetValuedTerm, Slot
+from nsode.ode import (
+    AugmentedODE,
+    Binding,
+    Definition,
+    LinearSolve,
+    Rate,
+    SetValuedTerm,
+    Slot,
+    defined,
+)
 
 if TYPE_CHECKING:
     import numpy as np

@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from nsode.expr import Expr, Index, IndexRange, Name, Sum, rebuild
-from nsode.ode import Definition, SetValuedTerm, System
-from nsode.passes.prune import defines, expressions, reads
-
-
-def defined(item: Definition) -> tuple[str, ...]:
-    """Return the names that a definition defines."""
-    return item.multiplier if isinstance(item, SetValuedTerm) else defines(item)
+from nsode.ode import Definition, System, defined, expressions
+from nsode.passes.prune import reads
 
 
 def behind(system: System) -> list[Definition]:
@@ -20,15 +13,10 @@ def behind(system: System) -> list[Definition]:
     kept: list[Definition] = []
     for item in reversed(system.bindings):
         if not wanted.isdisjoint(defined(item)):
-            wanted |= reads(*_read(item))
+            wanted |= reads(*expressions(item))
             kept.append(item)
     return kept[::-1]
 
-
-def _read(item: Definition) -> Iterable[Expr]:
-    if isinstance(item, SetValuedTerm):
-        return item.argument if item.factor is None else (*item.argument, item.factor)
-    return expressions(item)
 
 
 def fixed(expr: Expr, range: IndexRange | None) -> Expr:

@@ -12,7 +12,7 @@ from nsode.inclusion.definitions import Definitions
 from nsode.inclusion.elaborate import condition, elaborate, number
 from nsode.inclusion.elements import Elements, distinct, rename, rename_definition
 from nsode.inclusion.factors import prove_factor, prover_of
-from nsode.inclusion.families import Bounds, defined, expressions, ranges
+from nsode.inclusion.families import Bounds, ranges
 from nsode.inclusion.hypotheses import Hypotheses, base_reads
 from nsode.inclusion.indices import index_range
 from nsode.inclusion.order import loop, order
@@ -37,6 +37,8 @@ from nsode.ode import (
     Run,
     SetValuedTerm,
     State,
+    defined,
+    expressions,
 )
 from nsode.syntax import ast
 
@@ -105,10 +107,8 @@ class _Course:
                         | ast.OutputDeclaration(declarator)
                     ):
                         self.symbols.declare(declarator.name.text, declarator.name.span)
-        for statement in self.model.statements:
-            if isinstance(statement, ast.ConstantDeclaration):
-                with self.report.collecting():
-                    self.declared.constant(statement)
+        constants = [s for s in self.model.statements if isinstance(s, ast.ConstantDeclaration)]
+        self.declared.constants(constants, self.report)
         for statement in self.model.statements:
             with self.report.collecting():
                 match statement:

@@ -8,9 +8,12 @@ from dataclasses import dataclass, field, replace
 from nsode.diagnostics import refuse
 from nsode.evaluate import evaluate
 from nsode.expr import Call, Expr, Index, IndexRange, Name, Number, names
+from nsode.inclusion.definitions import written_names
 from nsode.inclusion.elaborate import elaborate, number
 from nsode.inclusion.families import choose
 from nsode.inclusion.indices import check_size, index_range, integer
+from nsode.inclusion.order import loop, order
+from nsode.inclusion.report import Report, in_a_circle
 from nsode.inclusion.review import Review
 from nsode.inclusion.settings import constant
 from nsode.inclusion.symbols import Kind, Scope, Symbol, Symbols
@@ -54,8 +57,21 @@ class Declarations:
         """Where values of declarations stand."""
         return Scope(self.symbols)
 
-    def constant(self, declaration: ConstantDeclaration) -> None:
-        """``constant n = 10``."""
+    def constants(self, declarations: Sequence[ConstantDeclaration], report: Report) -> None:
+        """``constant n = 10``, each behind those that it reads."""
+        known = {declaration.name.text: declaration for declaration in reversed(declarations)}
+        reads = {name: list(written_names(one.value)) for name, one in known.items()}
+        ordered = order(list(reads), reads)
+        for name in ordered:
+            with report.collecting():
+                self._constant(known[name])
+        if len(ordered) < len(known):
+            circle = loop(list(reads), reads)
+            report.found.extend(
+                in_a_circle(circle, {name: known[name].name.span for name in circle}).diagnostics
+            )
+
+    def _constant(self, declaration: ConstantDeclaration) -> None:
         value = integer(declaration.value, self.scope, f"`{declaration.name.text}`")
         span = declaration.name.span
         self.symbols.define(

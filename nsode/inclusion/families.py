@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from nsode.diagnostics import ModelError, refuse
 from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, children
-from nsode.ode import Definition, LinearSolve, Placed, SetValuedTerm
+from nsode.ode import Placed
 from nsode.passes.split import pieces, settle
 
 
@@ -87,24 +87,6 @@ def _outside(expr: Name, k: int, family: IndexRange) -> ModelError:
     )
 
 
-def expressions(item: Definition) -> list[Expr]:
-    """Return every expression of a definition."""
-    match item:
-        case LinearSolve():
-            return [*item.right, *(entry for row in item.matrix for entry in row)]
-        case SetValuedTerm():
-            return [*item.argument, *(() if item.factor is None else (item.factor,))]
-    return [item.value]
-
-
-def defined(item: Definition) -> tuple[str, ...]:
-    """Return the names that a definition defines."""
-    match item:
-        case LinearSolve():
-            return item.unknowns
-        case SetValuedTerm():
-            return item.multiplier
-    return (item.name,)
 
 
 def ranges(items: Iterable[Placed]) -> dict[str, IndexRange]:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from itertools import chain
 
 from nsode.expr import Expr, Name, children
-from nsode.ode import AugmentedODE, Binding, Definition, LinearSolve, Placed
+from nsode.ode import AugmentedODE, Definition, Placed, defined, expressions
 
 
 def reads(*exprs: Expr) -> set[str]:
@@ -25,27 +24,6 @@ def _gather(expr: Expr, found: set[str]) -> None:
         _gather(child, found)
 
 
-def defines(item: Definition) -> tuple[str, ...]:
-    """Return the names that an item among the bindings defines."""
-    match item:
-        case Binding(name=name):
-            return (name,)
-        case LinearSolve(unknowns=unknowns):
-            return unknowns
-        case _:
-            raise NotImplementedError(f"no single value comes from {type(item).__name__}")
-
-
-def expressions(item: Definition) -> Iterable[Expr]:
-    """Yield the expressions that an item among the bindings reads."""
-    match item:
-        case Binding(value=value):
-            yield value
-        case LinearSolve(matrix=matrix, right=right):
-            yield from chain.from_iterable(matrix)
-            yield from right
-        case _:
-            raise NotImplementedError(f"no single value comes from {type(item).__name__}")
 
 
 def needed(bindings: Sequence[Definition], wanted: set[str]) -> tuple[Definition, ...]:
@@ -55,7 +33,7 @@ def needed(bindings: Sequence[Definition], wanted: set[str]) -> tuple[Definition
     """
     kept = []
     for item in reversed(bindings):
-        if not wanted.isdisjoint(defines(item)):
+        if not wanted.isdisjoint(defined(item)):
             wanted |= reads(*expressions(item))
             kept.append(item)
     return tuple(reversed(kept))
@@ -121,7 +99,7 @@ def _dependencies(ode: AugmentedODE) -> dict[str, set[str]]:
     graph: dict[str, set[str]] = {}
     for item in ode.bindings:
         behind = reads(*expressions(item))
-        for name in defines(item):
+        for name in defined(item):
             graph.setdefault(name, set()).update(behind)
     for state in ode.states:
         graph[state.name] = reads(state.initial)

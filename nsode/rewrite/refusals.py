@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from nsode.derivative.forward import defined
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.expr import Expr, names
-from nsode.ode import Binding, Definition, DifferentialInclusion, LinearSolve, SetValuedTerm
+from nsode.ode import (
+    Binding,
+    Definition,
+    DifferentialInclusion,
+    LinearSolve,
+    SetValuedTerm,
+    defined,
+)
 from nsode.regularizations import LAWS
 
 

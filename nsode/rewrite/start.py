@@ -133,18 +133,28 @@ class _Start:
 
     def culprit(self, expr: Expr, indices: dict[str, int]) -> Expr | None:
         """Return the innermost part that is not finite though what it reads is."""
-        if isinstance(expr, Sum) or math.isfinite(self.value(expr, indices)):
+        if self._is_fine(expr, indices):
             return None
+        inner: tuple[Expr, dict[str, int]] | None = (expr, indices)
+        while inner is not None:
+            expr, indices = inner
+            inner = self._inner(expr, indices)
+        return expr
+
+    def _is_fine(self, expr: Expr, indices: dict[str, int]) -> bool:
+        return isinstance(expr, Sum) or math.isfinite(self.value(expr, indices))
+
+    def _inner(self, expr: Expr, indices: dict[str, int]) -> tuple[Expr, dict[str, int]] | None:
+        """Return what makes an expression that is not finite so, None if it is itself."""
         if isinstance(expr, Name):
             for formula, over in self.formulas.get(expr.id, ()):
-                if over is None:
-                    return self.culprit(formula, {})
+                if over is None and not self._is_fine(formula, {}):
+                    return formula, {}
             raise _GiveUpError
         for child in children(expr):
-            found = self.culprit(child, indices)
-            if found is not None:
-                return found
-        return expr
+            if not self._is_fine(child, indices):
+                return child, indices
+        return None
 
     def diagnosis(self, culprit: Expr, rate: Rate) -> Diagnostic:
         labels = [Label(culprit.span, "undefined at the start")]

@@ -6,11 +6,17 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from nsode.derivative import Row, time_derivatives
-from nsode.derivative.forward import defined
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.expr import Expr, names
 from nsode.inclusion.order import loop, order
-from nsode.ode import Binding, Definition, DifferentialInclusion, LinearSolve, SetValuedTerm
+from nsode.ode import (
+    Binding,
+    Definition,
+    DifferentialInclusion,
+    LinearSolve,
+    SetValuedTerm,
+    defined,
+)
 from nsode.regularizations import LAWS
 
 Velocities = Mapping[str, Expr]

@@ -11,7 +11,7 @@ import pytest
 
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.evaluate import evaluate
-from nsode.inclusion import build
+from nsode.inclusion.build import build
 from nsode.ode import Binding, DifferentialInclusion
 from nsode.source import Source
 from nsode.syntax import parse

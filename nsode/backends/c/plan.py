@@ -12,8 +12,7 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 from nsode.expr import Expr, Index, IndexRange, Name, Sum, children
-from nsode.ode import Binding, LinearSolve
-from nsode.passes.prune import defines, expressions
+from nsode.ode import Binding, LinearSolve, defined, expressions
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +90,7 @@ def _key(range: IndexRange | None) -> _Key:
 
 
 def _defined(work: Work) -> tuple[str, ...]:
-    return defines(work) if isinstance(work, Binding | LinearSolve) else ()
+    return defined(work) if isinstance(work, Binding | LinearSolve) else ()
 
 
 def exprs(work: Work) -> tuple[Expr, ...]:

@@ -10,8 +10,8 @@ from math import nan
 from nsode.backends.c.plan import Require, Scatter, Store, Work, exprs
 from nsode.backends.c.program import Program, Vector
 from nsode.expr import TIME, Expr, IndexRange, Name, Number, rebuild
-from nsode.ode import Binding, LinearSolve, State
-from nsode.passes.prune import defines, expressions, needed, reads
+from nsode.ode import Binding, LinearSolve, State, defined, expressions
+from nsode.passes.prune import needed, reads
 from nsode.passes.split import pieces
 
 
@@ -89,7 +89,7 @@ def _states_behind(program: Program) -> dict[str, set[str]]:
     behind: dict[str, set[str]] = {name: {name} for name in program.x.slots}
     for item in needed(program.ode.bindings, wanted):
         states = _behind(reads(*expressions(item)), behind)
-        for name in defines(item):
+        for name in defined(item):
             behind.setdefault(name, set()).update(states)
     return {name: _behind(names, behind) for name, names in read.items()}
 

@@ -16,9 +16,10 @@ from nsode.ode import (
     Rate,
     Slot,
     State,
+    expressions,
     layout,
 )
-from nsode.passes.prune import expressions, needed, reads
+from nsode.passes.prune import needed, reads
 from nsode.passes.split import pieces
 
 
