@@ -54,8 +54,8 @@ def under_law(model: Model, term: str, law: str, **constants: float) -> Model:
 def canvas(height: float, rows: int, columns: int = 1) -> Iterator[tuple[Figure, list[Axes]]]:
     """Give a figure as wide as a page of text, and its panels row by row."""
     import matplotlib as mpl
-    from matplotlib.figure import Figure
 
+    from nsode.simulate.figure import Figure
     from nsode.simulate.plot import STYLE
 
     with mpl.rc_context(STYLE):

@@ -46,7 +46,8 @@ def plot(trajectory: Trajectory, names: Sequence[str] = (), file: Path | None = 
         If matplotlib is not installed.
     """
     import matplotlib as mpl
-    from matplotlib.figure import Figure
+
+    from nsode.simulate.figure import Figure
 
     panels = [[name] for name in names] or _panels(trajectory)
     bands = bool(trajectory.mode_names)

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+    from nsode.simulate.animate import Animation, Draw
+
 Array = NDArray[np.float64]
 
 _PART = re.compile(r"(\[-?\d+\])?(\.([xyzw]|\d+))?")
@@ -136,6 +138,37 @@ class Trajectory:
         from nsode.simulate.plot import plot
 
         return plot(self, names, None if file is None else Path(file))
+
+    def animate(
+        self,
+        draw: Draw,
+        limits: tuple[float, float, float, float],
+        speed: float = 1.0,
+        rate: float = 25.0,
+    ) -> Animation:
+        """Return moving pictures, which a notebook shows and ``.save("x.gif")`` writes.
+
+        Parameters
+        ----------
+        draw
+            Called as ``draw(axis, now)`` for each picture, with empty matplotlib axes;
+            ``now["p.z"]`` is a value, ``now.mode("N")`` a mode, ``now.t`` the time. Values
+            are those of the nearest row.
+        limits
+            Left, right, bottom and top of the axes.
+        speed
+            Seconds of the run in a second of watching.
+        rate
+            Pictures per second of watching.
+
+        Raises
+        ------
+        ValueError
+            If limits, speed or rate make no sense, or too many pictures.
+        """
+        from nsode.simulate.animate import animate
+
+        return animate(self, draw, limits, speed, rate)
 
     def to_pandas(self) -> pd.DataFrame:
         """Return states and outputs as a table whose index is the time.
