@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 
-from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
+from nsode.diagnostics import ModelError, refuse
 from nsode.expr import Expr, Name, Number
 from nsode.inclusion.elaborate import elaborate, number
 from nsode.inclusion.families import choose
 from nsode.inclusion.hoist import Hoister, RawTerm
 from nsode.inclusion.indices import index_range, integer
 from nsode.inclusion.order import loop, order
-from nsode.inclusion.report import Report
+from nsode.inclusion.report import Report, in_a_circle
 from nsode.inclusion.review import Review
 from nsode.inclusion.symbols import Kind, Scope, Symbol, Symbols
 from nsode.inclusion.units import in_si
@@ -98,33 +98,20 @@ class Definitions:
 
     def _reads(self, key: str, raw: dict[str, RawTerm]) -> Iterator[str]:
         if key not in raw:
-            yield from _names(self._pending[key].value)
+            yield from written_names(self._pending[key].value)
             return
-        yield from _names(raw[key].argument)
+        yield from written_names(raw[key].argument)
         factor = raw[key].factor
         if factor is not None:
-            yield from _names(factor)
+            yield from written_names(factor)
 
     def _loop(self, keys: list[str], raw: dict[str, RawTerm]) -> ModelError:
-        shown = [key.removesuffix(".lambda") for key in keys if "@" not in key] or ["sgn"]
-        path = " -> ".join(f"`{name}`" for name in [*shown, shown[0]])
-        labels = [
-            Label(
-                raw[key].span if key in raw else self._pending[key].declarator.name.span,
-                "needs the next" if key != keys[-1] else "needs the first again",
-            )
+        named = [key for key in keys if "@" not in key]
+        spans = {
+            key: raw[key].span if key in raw else self._pending[key].declarator.name.span
             for key in keys
-        ]
-        return ModelError(
-            [
-                Diagnostic(
-                    "NS106",
-                    f"these are defined by each other: {path}",
-                    tuple(labels),
-                    help="solve the loop by hand, or make one of them a state",
-                )
-            ]
-        )
+        }
+        return in_a_circle([key.removesuffix(".lambda") for key in named] or ["sgn"], spans)
 
     def _let(self, pending: _Pending) -> None:
         declarator, name = pending.declarator, pending.declarator.name
@@ -213,7 +200,7 @@ class Definitions:
         return number(factor, "the factor of `sgn`")
 
 
-def _names(expr: Expr) -> Iterator[str]:
+def written_names(expr: Expr) -> Iterator[str]:
     """Yield the names that an expression of the syntax tree reads."""
     stack: list[object] = [expr]
     while stack:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from nsode.diagnostics import Diagnostic, ModelError
-from nsode.source import Source
+from nsode.diagnostics import Diagnostic, Label, ModelError
+from nsode.source import Source, Span
 
 
 class PoisonedError(Exception):
@@ -50,3 +50,27 @@ class Report:
         """
         if any(d.severity == "error" for d in self.found):
             raise ModelError(self.ordered(), self.source)
+
+
+#: Members of a circle that a message shows.
+_SHOWN = 5
+
+
+def in_a_circle(names: Sequence[str], spans: Mapping[str, Span]) -> ModelError:
+    """Return the error for definitions that need each other; ``spans`` in reading order."""
+    path = [f"`{name}`" for name in names]
+    if len(path) > _SHOWN:
+        path[_SHOWN - 1 : -1] = ["..."]
+    places = list(spans.values())
+    labels = [Label(place, "needs the next") for place in places[: _SHOWN - 1]]
+    labels.append(Label(places[-1], "needs the first again"))
+    return ModelError(
+        [
+            Diagnostic(
+                "NS106",
+                "these are defined by each other: " + " -> ".join([*path, path[0]]),
+                tuple(labels[-len(places) :]),
+                help="solve the loop by hand, or make one of them a state",
+            )
+        ]
+    )

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from nsode.derivative import time_derivative
+from nsode import derivative as moving
 from nsode.diagnostics import ModelError, refuse
-from nsode.expr import TIME, Call, Expr, Name, names
+from nsode.expr import TIME, Call, Expr, Index, Name, names
 from nsode.inclusion.definitions import Definitions
 from nsode.inclusion.elaborate import elaborate, number
 from nsode.inclusion.equations import Row, derivative_name, row
 from nsode.inclusion.indices import index_range
+from nsode.inclusion.order import deepest_first
 from nsode.inclusion.report import Report
 from nsode.inclusion.review import Review
 from nsode.inclusion.symbols import Scope, Symbols
@@ -30,6 +31,7 @@ class Rows:
     rows: list[Row] = field(default_factory=list)
     bindings: dict[str, Binding] = field(default_factory=dict)
     _written: list[ast.Equation] = field(default_factory=list)
+    _bound: dict[str, Binding] = field(default_factory=dict)
 
     def hoist(self, equation: ast.Equation) -> None:
         """Take the set-valued terms out of an equation."""
@@ -83,28 +85,42 @@ class Rows:
         return symbol is not None and symbol.kind == "state"
 
     def _of_time(self, expr: Expr, call: Call) -> Expr:
-        self._check_of_time(expr, call, set())
-        system = DifferentialInclusion(
-            "", Source("", ""), (), (), (), tuple(self.definitions.bindings), (), ()
-        )
-        emitted, value = time_derivative(system, expr)
+        """Return the derivative of a function of time; that of a let gets a name."""
+        needed = self._needed(expr, call)
+        system = DifferentialInclusion("", Source("", ""), (), (), (), needed, (), ())
+        first = (_itself(binding) for binding in needed)  # so that no recursion follows names
+        emitted, rows = moving.time_derivatives(system, *first, moving.Row("", expr))
         for item in emitted:
             assert isinstance(item, Binding)
             self.bindings[item.name] = item
-        return value
+        return rows[-1].value
 
-    def _check_of_time(self, expr: Expr, call: Call, seen: set[str]) -> None:
-        bindings = {binding.name: binding for binding in self.definitions.bindings}
-        for name in names(expr):
-            if name.id == TIME or name.id in seen:
-                continue
-            seen.add(name.id)
-            if name.id in bindings:
-                self._check_of_time(bindings[name.id].value, call, seen)
-                continue
-            symbol = self.symbols.known.get(name.id.partition(".")[0])
-            if symbol is None or symbol.kind != "parameter":
-                raise _no_function_of_time(name, call)
+    def _needed(self, expr: Expr, call: Call) -> tuple[Binding, ...]:
+        """Return what a function of time rests on, in an order that computes."""
+        if not self._bound:
+            self._bound = {binding.name: binding for binding in self.definitions.bindings}
+
+        def reads(value: Expr) -> list[str]:
+            return [name.id for name in names(value) if self._moves(name, call)]
+
+        found: dict[str, Binding] = {}
+        for name in deepest_first(reads(expr), lambda n: reads(self._bound[n].value), found):
+            found[name] = self._bound[name]
+        return tuple(found.values())
+
+    def _moves(self, name: Name, call: Call) -> bool:
+        """Tell whether a name is defined by others; it must rest on time and parameters."""
+        if name.id in self._bound:
+            return True
+        symbol = self.symbols.known.get(name.id.partition(".")[0].partition("[")[0])
+        if name.id == TIME or (symbol is not None and symbol.kind == "parameter"):
+            return False
+        raise _no_function_of_time(name, call)
+
+
+def _itself(binding: Binding) -> moving.Row:
+    at = None if binding.range is None else Index(binding.range.variable)
+    return moving.Row(binding.name, Name(binding.name, at), binding.range)
 
 
 def _unknown(part: Expr, call: Call) -> Name:
