@@ -132,7 +132,7 @@ def assemble(
     return matrix
 
 
-def _values(entry: Entry, point: Point) -> list[float]:
+def _values(entry: Entry, point: Point) -> Vector:
     """Return the value of an entry for each combination of its ranges."""
     found: list[float] = []
 
