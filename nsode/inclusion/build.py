@@ -13,6 +13,7 @@ from nsode.inclusion.elaborate import condition, elaborate, number
 from nsode.inclusion.elements import Elements, distinct, rename, rename_definition
 from nsode.inclusion.factors import prove_factor, prover_of
 from nsode.inclusion.families import Bounds, ranges
+from nsode.inclusion.fitting import declared_shape, fitted
 from nsode.inclusion.hypotheses import Hypotheses, base_reads
 from nsode.inclusion.indices import index_range
 from nsode.inclusion.order import loop, order
@@ -150,6 +151,8 @@ class _Course:
     def _output(self, output: ast.OutputDeclaration) -> None:
         over = index_range(output.declarator.range, self.scope)
         value = each(number, elaborate(output.value, self.scope.with_index(over)))
+        sizes = declared_shape(output.declarator, self.scope)
+        value = fitted(value, over, sizes, output.declarator)
         self.review.check(value)
         name = output.declarator.name
         unit = None if output.unit is None else output.unit.text

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -10,20 +11,18 @@ from nsode.evaluate import evaluate
 from nsode.expr import Call, Expr, Index, IndexRange, Name, Number, names
 from nsode.inclusion.definitions import written_names
 from nsode.inclusion.elaborate import elaborate, number
-from nsode.inclusion.families import choose
-from nsode.inclusion.indices import check_size, index_range, integer
+from nsode.inclusion.fitting import declared_shape, fitted
+from nsode.inclusion.indices import index_range, integer
 from nsode.inclusion.order import loop, order
 from nsode.inclusion.report import Report, in_a_circle
 from nsode.inclusion.review import Review
 from nsode.inclusion.settings import constant
-from nsode.inclusion.symbols import Kind, Scope, Symbol, Symbols
+from nsode.inclusion.symbols import Scope, Symbol, Symbols
 from nsode.inclusion.units import in_si
 from nsode.inclusion.values import (
     Shape,
     Value,
-    describe,
     each,
-    from_scalars,
     scalars,
     shape,
     suffixes,
@@ -80,18 +79,17 @@ class Declarations:
 
     def parameter(self, declaration: ParameterDeclaration) -> None:
         """``parameter M = 1 {kg} > 0``: numbers alone."""
-        declarator, over, value = self._value(declaration.declarator, declaration.value)
+        declarator = declaration.declarator
         name = declarator.name.text
-        of = self._define(declarator, "parameter", over, value, declaration.unit)
-        columns = self._columns(value, of, over, declarator)
-        for suffix, column in zip(suffixes(of), columns, strict=True):
-            found = tuple(
-                constant(in_si(part, declaration.unit), f"the value of `{name}`") for part in column
-            )
-            unit = None if declaration.unit is None else declaration.unit.text
-            self.parameters.append(
-                Parameter(name + suffix, found, over, unit, span=declarator.name.span)
-            )
+        over = index_range(declarator.range, self.scope)
+        value = self._elaborated(declaration.value, self.scope.with_index(over))
+        value = fitted(value, over, self._sizes(declarator), declarator)
+        unit = None if declaration.unit is None else declaration.unit.text
+        of, span = shape(value), declarator.name.span
+        self.symbols.define(Symbol(name, "parameter", of, over, span, unit))
+        for suffix, part in zip(suffixes(of), scalars(value), strict=True):
+            found = _elements(part, over, declaration.unit, f"the value of `{name}`")
+            self.parameters.append(Parameter(name + suffix, found, over, unit, span=span))
             self._bounds(name + suffix, over, declaration.bounds, declaration.unit)
 
     def input(self, declaration: InputDeclaration) -> None:
@@ -101,8 +99,8 @@ class Declarations:
         default: Value | None = None
         if declaration.default is not None:
             default = self._elaborated(declaration.default, self.scope.with_index(over))
+            default = fitted(default, None, declared, declaration.declarator)
         of = declared if declared is not None else () if default is None else shape(default)
-        self._fits(default, of, declaration.declarator)
         name = declaration.declarator.name
         unit = None if declaration.unit is None else declaration.unit.text
         self.symbols.define(Symbol(name.text, "input", of, over, name.span, unit))
@@ -131,9 +129,7 @@ class Declarations:
         symbol = self.symbols.find(declaration.declarator.name.text, declaration.span)
         inner = replace(scope.with_index(symbol.range), constants=True)
         value = self._elaborated(declaration.initial, inner)
-        if symbol.range is not None and shape(value) == (len(symbol.range), *symbol.shape):
-            value = _listed(value, symbol)
-        self._fits(value, symbol.shape, declaration.declarator)
+        value = fitted(value, symbol.range, symbol.shape, declaration.declarator)
         for suffix, part in zip(suffixes(symbol.shape), scalars(value), strict=True):
             k = self._places[symbol.name + suffix]
             converted = in_si(part, declaration.unit)
@@ -144,76 +140,10 @@ class Declarations:
         self.review.check(value)
         return value
 
-    def _value(
-        self, declarator: Declarator, expr: Expr
-    ) -> tuple[Declarator, IndexRange | None, Value]:
-        over = index_range(declarator.range, self.scope)
-        return declarator, over, self._elaborated(expr, self.scope.with_index(over))
-
     def _sizes(self, declarator: Declarator) -> Shape | None:
-        if not declarator.sizes:
-            return None if declarator.range is None else ()
-        found = tuple(integer(size, self.scope, "the size") for size in declarator.sizes)
-        for size, written in zip(found, declarator.sizes, strict=True):
-            if size < 1:
-                raise refuse("NS105", "a size must be at least 1", written.span)
-            check_size(size, written.span)
-            if size > 16:
-                raise refuse(
-                    "NS105",
-                    f"a vector of {size} is larger than 16",
-                    written.span,
-                    help="declare a family: `state x[i in 1..n] = ...`",
-                )
-        return found
-
-    def _fits(self, value: Value | None, of: Shape, declarator: Declarator) -> None:
-        if value is not None and shape(value) != of:
-            name, found = declarator.name.text, describe(shape(value))
-            raise refuse(
-                "NS105",
-                f"`{name}` is {describe(of)}, but its value is {found}",
-                declarator.span,
-                help="give one value for each component, for example `[0, 0, 0]`",
-            )
-
-    def _define(
-        self,
-        declarator: Declarator,
-        kind: Kind,
-        over: IndexRange | None,
-        value: Value,
-        unit: Unit | None,
-    ) -> Shape:
-        declared = self._sizes(declarator) or ()
-        of = shape(value)
-        if over is not None and of == (len(over), *declared):
-            of = declared
-        elif declarator.sizes or over is not None:
-            self._fits(value, declared, declarator)
-        name = declarator.name
-        self.symbols.define(
-            Symbol(name.text, kind, of, over, name.span, None if unit is None else unit.text)
-        )
-        return of
-
-    def _columns(
-        self, value: Value, of: Shape, over: IndexRange | None, declarator: Declarator
-    ) -> list[list[Expr]]:
-        """Return, for each component, its values over the range."""
-        if over is None:
-            return [[part] for part in scalars(value)]
-        if shape(value) != of and isinstance(value, tuple):
-            return [list(column) for column in zip(*(scalars(row) for row in value), strict=True)]
-        return [
-            [
-                Number(evaluate(part, _no_names, {over.variable: k}), span=part.span)
-                for k in range(over.first, over.last + 1)
-            ]
-            if not any(True for _ in names(part))
-            else [part]
-            for part in scalars(value)
-        ]
+        """Return the declared shape; an element of a family is a scalar unless declared."""
+        found = declared_shape(declarator, self.scope)
+        return () if found is None and declarator.range is not None else found
 
     def _bounds(
         self, name: str, over: IndexRange | None, bounds: Sequence[Bound], unit: Unit | None
@@ -232,13 +162,22 @@ class Declarations:
             self.checks.append(Check("bound", condition, over, "declared", span=bound.span))
 
 
-def _listed(value: Value, symbol: Symbol) -> Value:
-    """Return a list of one value for each element as a choice by index."""
-    assert isinstance(value, tuple)
-    assert symbol.range is not None
-    rows = [scalars(row) for row in value]
-    chosen = tuple(choose(list(column), symbol.range) for column in zip(*rows, strict=True))
-    return from_scalars(chosen, symbol.shape)
+def _elements(
+    value: Expr, over: IndexRange | None, unit: Unit | None, what: str
+) -> tuple[float, ...]:
+    """Return the value of a parameter, or that of each of its elements, in SI."""
+    if over is None:
+        return (constant(in_si(value, unit), what),)
+    if any(True for _ in names(value)):
+        return (constant(value, what),)
+    found: list[float] = []
+    for k in range(over.first, over.last + 1):
+        element = evaluate(value, _no_names, {over.variable: k})
+        if not math.isfinite(element):
+            where = f"for `{over.variable} = {k}`"
+            raise refuse("NS116", f"{what} is {element} {where}", value.span, "undefined there")
+        found.append(constant(in_si(Number(element, span=value.span), unit), what))
+    return tuple(found)
 
 
 def _no_names(name: str, at: int | None) -> float:

@@ -8,20 +8,18 @@ from dataclasses import dataclass, field, fields
 from nsode.diagnostics import ModelError, refuse
 from nsode.expr import Expr, Name, Number
 from nsode.inclusion.elaborate import elaborate, number
-from nsode.inclusion.families import choose
+from nsode.inclusion.fitting import declared_shape, fitted
 from nsode.inclusion.hoist import Hoister, RawTerm
-from nsode.inclusion.indices import index_range, integer
+from nsode.inclusion.indices import index_range
 from nsode.inclusion.order import loop, order
 from nsode.inclusion.report import Report, in_a_circle
 from nsode.inclusion.review import Review
 from nsode.inclusion.symbols import Kind, Scope, Symbol, Symbols
 from nsode.inclusion.units import in_si
 from nsode.inclusion.values import (
-    Shape,
     Value,
     describe,
     each,
-    from_scalars,
     scalars,
     shape,
     suffixes,
@@ -117,18 +115,7 @@ class Definitions:
         declarator, name = pending.declarator, pending.declarator.name
         over = index_range(declarator.range, self.scope)
         value = each(number, elaborate(pending.value, self.scope.with_index(over)))
-        declared = self._declared(declarator)
-        if over is not None and shape(value) == (len(over), *(declared or ())):
-            assert isinstance(value, tuple)
-            columns = zip(*(scalars(row) for row in value), strict=True)
-            chosen = tuple(choose(list(column), over) for column in columns)
-            value = from_scalars(chosen, declared or ())
-        elif declared is not None and shape(value) != declared:
-            raise refuse(
-                "NS105",
-                f"`{name.text}` is {describe(declared)}, but its value is {describe(shape(value))}",
-                declarator.span,
-            )
+        value = fitted(value, over, declared_shape(declarator, self.scope), declarator)
         value = each(lambda part: in_si(part, pending.unit), value)
         self.review.check(value)
         of = shape(value)
@@ -139,11 +126,6 @@ class Definitions:
             self.bindings.append(
                 Binding(name.text + suffix, part, over, role, unit, span=name.span)
             )
-
-    def _declared(self, declarator: Declarator) -> Shape | None:
-        if not declarator.sizes:
-            return None
-        return tuple(integer(size, self.scope, "the size") for size in declarator.sizes)
 
     def _term(self, raw: RawTerm) -> None:
         over = index_range(raw.range, self.scope)

@@ -1,32 +1,14 @@
-"""Families: lists over an index, and subscripts that must stay in range."""
+"""Subscripts of families must stay in range."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from nsode.diagnostics import ModelError, refuse
-from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, children
+from nsode.expr import Expr, Index, IndexRange, Name, Sum, children
 from nsode.ode import Placed
 from nsode.passes.split import pieces, settle
-
-
-def choose(items: Sequence[Expr], over: IndexRange) -> Expr:
-    """Return the item that belongs to the index of ``over``."""
-    return choose_until([(over.first + k, item) for k, item in enumerate(items)], over.variable)
-
-
-def choose_until(items: Sequence[tuple[int, Expr]], variable: str) -> Expr:
-    """Return the item of the first bound that the index does not exceed.
-
-    The conditions halve the items, so that a long list makes no deep expression.
-    """
-    if len(items) == 1:
-        return items[0][1]
-    middle = len(items) // 2
-    until = Call("<=", (Index(variable), Number(float(items[middle - 1][0]))))
-    low, high = choose_until(items[:middle], variable), choose_until(items[middle:], variable)
-    return If(until, low, high, span=low.span.to(high.span))
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,8 +67,6 @@ def _outside(expr: Name, k: int, family: IndexRange) -> ModelError:
         f"`{head}` goes from {family.first} to {family.last}",
         help=f"shorten the range, or write `(if {family.variable} > {family.first} then ...)`",
     )
-
-
 
 
 def ranges(items: Iterable[Placed]) -> dict[str, IndexRange]:

@@ -61,15 +61,15 @@ def in_a_circle(names: Sequence[str], spans: Mapping[str, Span]) -> ModelError:
     path = [f"`{name}`" for name in names]
     if len(path) > _SHOWN:
         path[_SHOWN - 1 : -1] = ["..."]
-    places = list(spans.values())
+    *places, last = spans.values()
     labels = [Label(place, "needs the next") for place in places[: _SHOWN - 1]]
-    labels.append(Label(places[-1], "needs the first again"))
+    labels.append(Label(last, "needs the first again"))
     return ModelError(
         [
             Diagnostic(
                 "NS106",
                 "these are defined by each other: " + " -> ".join([*path, path[0]]),
-                tuple(labels[-len(places) :]),
+                tuple(labels),
                 help="solve the loop by hand, or make one of them a state",
             )
         ]

@@ -30,7 +30,7 @@ from nsode.inclusion.equations import (
     scaled_by,
     state_of,
 )
-from nsode.inclusion.families import choose_until
+from nsode.inclusion.fitting import choose_until
 from nsode.inclusion.matching import Matching
 from nsode.inclusion.regular import Constants, check_regular
 from nsode.inclusion.values import is_zero, total
