@@ -84,8 +84,9 @@ def _not_finite(
     """Return which states break; the step is repeated, for the C does not tell."""
     with np.errstate(all="ignore"):
         after = _step(machine, settings, t, u, p, x)
-    names = element_names(ode.states)
-    bad = [f"`{name}`" for name, value in zip(names, after, strict=True) if not np.isfinite(value)]
+    pairs = zip(element_names(ode.states), after, strict=True)
+    hidden = (".balance", ".moved")  # states of the guard, which break only with others
+    bad = [f"`{n}`" for n, v in pairs if not np.isfinite(v) and not n.endswith(hidden)]
     if not bad:
         return "a state is"
     shown = ", ".join(bad[:4]) + (f" and {len(bad) - 4} more" if len(bad) > 4 else "")

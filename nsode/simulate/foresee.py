@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from dataclasses import replace
 
 from nsode.diagnostics import Diagnostic
@@ -16,6 +17,22 @@ from nsode.ode import (
 )
 from nsode.simulate.machine import Vector
 from nsode.simulate.settings import Settings
+
+_KEPT = 32  # runs that are remembered
+_known: OrderedDict[tuple[object, ...], tuple[object, tuple[Diagnostic, ...]]] = OrderedDict()
+
+
+def foreseen(
+    inclusion: DifferentialInclusion, ode: AugmentedODE, settings: Settings, p: Vector
+) -> tuple[Diagnostic, ...]:
+    """Return what :func:`foresee` does, looked up where a run is repeated."""
+    key = (id(inclusion), id(ode), settings.method, settings.step, p.tobytes())
+    if key not in _known:
+        # The table holds the model itself, so that nothing else can take over its id.
+        _known[key] = ((inclusion, ode), foresee(inclusion, ode, settings, p))
+        if len(_known) > _KEPT:
+            _known.popitem(last=False)
+    return _known[key][1]
 
 
 def foresee(

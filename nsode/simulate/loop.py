@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nsode.integrators.pairs import PAIRS
+from nsode.simulate.guard import Books
 from nsode.simulate.inputs import Inputs
 from nsode.simulate.machine import OK, Machine, Vector
 from nsode.simulate.settings import Settings
@@ -46,6 +47,7 @@ def record(
     inputs: Inputs,
     p: Vector,
     progress: Progress | None = None,
+    books: Books | None = None,
 ) -> Record:
     """Run from a state on and return what was stored.
 
@@ -57,6 +59,8 @@ def record(
         The parameters.
     progress
         Called with the number of steps taken and that of all, some twenty times a second.
+    books
+        Stop at the row where they show energy from nothing.
     """
     p = p if len(p) else np.zeros(1)
     x = np.array(start) if len(start) else np.zeros(1)
@@ -85,6 +89,12 @@ def record(
             now = time.perf_counter()
             chunk = _next(count, now - before, max(1, u.shape[1] if inputs.varying else 0))
             before = now
+            fresh = slice(row, taken // settings.every + 1)
+            tripped = None if books is None else books.trips(xs[fresh], ys[fresh], ys[0])
+            if tripped is not None:
+                taken, status = (row + tripped) * settings.every, OK
+                x[: len(start)] = xs[row + tripped]
+                break
             if progress is not None:
                 progress(taken, settings.steps)
     except KeyboardInterrupt:

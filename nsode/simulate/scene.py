@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 
 from nsode.diagnostics import Diagnostic, ModelError
@@ -11,15 +11,13 @@ from nsode.integrators import REGISTRY
 from nsode.integrators.pairs import PAIRS
 from nsode.ode import AugmentedODE, DifferentialInclusion
 from nsode.simulate.build import Compiler, compiler, library
+from nsode.simulate.guard import Books, with_books
 from nsode.simulate.machine import Machine
 from nsode.simulate.native import load
 from nsode.simulate.observe import Observed, observe
 from nsode.simulate.virtual import virtual
 
 _KEPT = 32  # models that are remembered
-
-#: Method, step and parameters of a run, which decide what is said before it.
-Foreseen = tuple[str, float, bytes]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,15 +27,19 @@ class Scene:
     observed: Observed
     machine: Machine
     compiler: Compiler | None
-    foreseen: dict[Foreseen, tuple[Diagnostic, ...]] = field(default_factory=dict)
+    books: Books | None
 
 
-_Key = tuple[int, int, str]
+_Key = tuple[int, int, str, bool]
 _known: OrderedDict[_Key, tuple[DifferentialInclusion, AugmentedODE, Scene]] = OrderedDict()
 
 
-def scene(inclusion: DifferentialInclusion, ode: AugmentedODE, method: str) -> Scene:
+def scene(
+    inclusion: DifferentialInclusion, ode: AugmentedODE, method: str, *, watched: bool = False
+) -> Scene:
     """Return a model ready to run by a method; at once if it did before in this process.
+
+    One that is ``watched`` keeps books of its energy, where the method has fixed steps.
 
     Raises
     ------
@@ -45,11 +47,12 @@ def scene(inclusion: DifferentialInclusion, ode: AugmentedODE, method: str) -> S
         NS509 if it cannot be compiled, NS510 if the cache is not safe.
     """
     using = compiler()
-    key = (id(inclusion), id(ode), method)
+    watched = watched and method in REGISTRY
+    key = (id(inclusion), id(ode), method, watched)
     found = _known.get(key)
     if found is None or found[2].compiler != using:
         # The table holds the model itself, so that nothing else can take over its id.
-        found = (inclusion, ode, _made(inclusion, ode, method, using))
+        found = (inclusion, ode, _made(inclusion, ode, method, using, watched))
         _known[key] = found
         if len(_known) > _KEPT:
             _known.popitem(last=False)
@@ -57,15 +60,24 @@ def scene(inclusion: DifferentialInclusion, ode: AugmentedODE, method: str) -> S
 
 
 def _made(
-    inclusion: DifferentialInclusion, ode: AugmentedODE, method: str, using: Compiler | None
+    inclusion: DifferentialInclusion,
+    ode: AugmentedODE,
+    method: str,
+    using: Compiler | None,
+    watched: bool,
 ) -> Scene:
-    observed = observe(inclusion, ode)
+    observed, books = observe(inclusion, ode), None
+    kept = with_books(inclusion, observed.ode) if watched else None
+    if kept is not None:
+        observed, books = replace(observed, ode=kept[0]), kept[1]
     stepped = method if method in REGISTRY or method in PAIRS else next(iter(REGISTRY))
     if using is not None:
-        return Scene(observed, load(observed.ode, library(observed.ode, stepped, using)), using)
+        return Scene(
+            observed, load(observed.ode, library(observed.ode, stepped, using)), using, books
+        )
     if stepped in PAIRS or find_spec("casadi") is None:
         raise ModelError([_no_compiler(stepped)])
-    return Scene(observed, virtual(observed.ode, stepped), None)
+    return Scene(observed, virtual(observed.ode, stepped), None, books)
 
 
 def _no_compiler(method: str) -> Diagnostic:

@@ -15,7 +15,8 @@ from nsode.diagnostics import Diagnostic, ModelError
 from nsode.integrators import REGISTRY
 from nsode.ode import AugmentedODE, DifferentialInclusion, Output, State, element_names, size
 from nsode.simulate import failure, parameters, solvers
-from nsode.simulate.foresee import foresee
+from nsode.simulate.foresee import foreseen
+from nsode.simulate.guard import verdict
 from nsode.simulate.inputs import Signal, inputs
 from nsode.simulate.loop import Progress, Record, record
 from nsode.simulate.machine import OK, Vector
@@ -105,37 +106,30 @@ def simulate(
     p = parameters.parameters(ode, overrides or {})
     settings, remarks = settle(wish, ode.run, _columns(ode))
     given = inputs(ode, signals or {}, settings)
-    made = scene(inclusion, ode, settings.method)
-    _say([*remarks, *slowly(made), *_foreseen(made, inclusion, ode, settings, p)], manner, ode)
+    known = foreseen(inclusion, ode, settings, p)
+    made = scene(inclusion, ode, settings.method, watched=manner.guard and bool(known))
+    _say([*remarks, *slowly(made), *known], manner, ode)
     x0 = made.machine.initial(p if len(p) else np.zeros(1))
     parameters.states(ode, x0, start or {})
     if settings.method in SOLVERS:
         task = solvers.Task(ode, made.machine, settings, given, p)
         found = solvers.record(task, x0, manner.progress)
     else:
-        found = record(made.machine, settings, x0, given, p, manner.progress)
+        found = record(made.machine, settings, x0, given, p, manner.progress, made.books)
     trajectory = _trajectory(made, settings, p, signals or {}, found)
     if found.status != OK:
         observed = made.observed.ode
         why = failure.cause(observed, made.machine, settings, given, p, found)
         raise failure.RunError(why, ode, trajectory)
+    if made.books is not None:
+        said = verdict(made.books, found.t, found.xs, found.ys)
+        if said is not None and said.severity == "error":
+            raise failure.RunError(said, ode, trajectory)
+        if said is not None:
+            manner.tell(said)
     if found.interrupted:
         manner.tell(failure.interrupted(settings, found))
     return trajectory
-
-
-def _foreseen(
-    made: Scene,
-    inclusion: DifferentialInclusion,
-    ode: AugmentedODE,
-    settings: Settings,
-    p: Vector,
-) -> tuple[Diagnostic, ...]:
-    """Return what is known of a run before it; looked up where a run is repeated."""
-    key = (settings.method, settings.step, p.tobytes())
-    if key not in made.foreseen:
-        made.foreseen[key] = foresee(inclusion, ode, settings, p)
-    return made.foreseen[key]
 
 
 def _say(remarks: Sequence[Diagnostic], manner: Manner, ode: AugmentedODE) -> None:
@@ -155,16 +149,17 @@ def _trajectory(
 ) -> Trajectory:
     observed, ode = made.observed, made.observed.ode
     outputs, gaps = len(observed.outputs), len(observed.gaps)
+    names = tuple(element_names(ode.states)[: None if made.books is None else made.books.states])
     return Trajectory(
         name=ode.name,
         t=found.t,
-        x=found.xs,
+        x=found.xs[:, : len(names)],
         y=found.ys[:, :outputs],
-        x_names=tuple(element_names(ode.states)),
+        x_names=names,
         y_names=observed.outputs,
         psi=found.ys[:, outputs : outputs + gaps],
         psi_names=observed.gaps,
-        modes=found.ys[:, outputs + gaps :].astype(np.int8),
+        modes=found.ys[:, outputs + gaps : outputs + gaps + len(observed.modes)].astype(np.int8),
         mode_names=observed.modes,
         forces=observed.forces,
         units=_units(observed),

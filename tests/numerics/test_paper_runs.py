@@ -93,8 +93,9 @@ def test_friction_stays_within_its_level_and_contact_never_pulls():
 def test_the_blocks_come_to_rest_at_a_stable_step_and_never_at_the_papers():
     stable = run("two_blocks_conveyor", 10.0)
     assert np.abs(stable["v1"][-1]).max() < 1e-12
-    with pytest.warns(nsode.simulate.RunWarning, match="beyond what rk4 can take"):
+    with pytest.warns(nsode.simulate.RunWarning) as told:
         unstable = run("two_blocks_conveyor", 10.0, 1e-3)
+    assert "beyond what rk4 can take" in str(told[0].message)
     tail = unstable["v1"][unstable.t > 8]
     assert 1e-5 < np.abs(tail).max() < 1
 

@@ -292,9 +292,15 @@ def test_a_subnormal_state_is_zero():
 
 def test_ctrl_c_keeps_what_was_computed():
     main = threading.main_thread().ident
-    threading.Timer(0.3, signal.pthread_kill, (main, signal.SIGINT)).start()
-    with pytest.warns(RunWarning, match="interrupted at t = "):
-        found = nsode.loads(DECAY).simulate(1e5, 1e-3, every=1000)
+    timer = threading.Timer(0.3, signal.pthread_kill, (main, signal.SIGINT))
+    model = nsode.loads(DECAY)
+    model.simulate(1, 1e-3)
+    timer.start()
+    try:
+        with pytest.warns(RunWarning, match="interrupted at t = "):
+            found = model.simulate(1e5, 1e-3, every=1000)
+    finally:
+        timer.cancel()
     assert found.meta["run"]["interrupted"]
     assert 0 < found.meta["run"]["taken"] < 10**8
     assert len(found) >= found.meta["run"]["taken"] // 1000

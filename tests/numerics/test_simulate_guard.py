@@ -1,0 +1,73 @@
+"""Energy from nothing stops a run; sound runs never hear of it."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+
+import nsode
+from nsode.simulate import RunError, RunWarning
+from nsode.simulate.guard import Books, verdict
+from support.models import MODELS
+
+
+def run(name, *args, **parameters):
+    return nsode.load(MODELS / f"{name}.di").simulate(*args, parameters=parameters)
+
+
+@pytest.mark.parametrize(
+    ("name", "duration", "step", "parameters"),
+    [
+        ("bouncing_mass", 3.0, 1e-3, {"f.K": 5e6}),  # would rise to 2.4 m from a drop of 1 m
+        ("dry_friction", 5.0, 1e-3, {"F.beta": 3e-4}),  # finite, and 41 % off
+        ("dry_friction", 5.0, 1e-3, {"F.beta": 1e-4}),
+        ("two_blocks_conveyor", 2.0, 2e-3, {}),
+        ("frictional_contact", 0.5, 1e-3, {"N.K": 1e7}),
+    ],
+)
+def test_a_run_that_makes_energy_is_stopped_with_its_rows_kept(name, duration, step, parameters):
+    with (
+        pytest.warns(RunWarning, match="beyond what rk4 can take"),
+        pytest.raises(RunError, match="more energy than it was given") as refusal,
+    ):
+        run(name, duration, step, **parameters)
+    assert refusal.value.diagnostics[0].code == "NS506"
+    kept = refusal.value.trajectory
+    assert 0 < kept.t[-1] < duration
+    assert np.all(np.isfinite(kept.x))
+    assert not any(column.endswith((".moved", ".balance")) for column in kept.x_names)
+
+
+def test_without_the_guard_it_goes_on_to_where_the_energy_leads():
+    model = nsode.load(MODELS / "bouncing_mass.di")
+    with pytest.warns(RunWarning, match="beyond"):
+        found = model.simulate(3, 1e-3, parameters={"f.K": 5e6}, guard=False)
+    assert found["p"].max() > 2  # dropped from 1 m
+
+
+def test_the_books_change_no_number_of_the_run():
+    model = nsode.load(MODELS / "two_blocks_conveyor.di")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RunWarning)
+        watched = model.simulate(1.0, 1e-3)
+        alone = model.simulate(1.0, 1e-3, guard=False)
+    assert np.array_equal(watched.x, alone.x)
+    assert np.array_equal(watched.y, alone.y)
+    assert np.array_equal(watched.modes, alone.modes)
+
+
+def test_the_verdict_warns_from_one_percent_and_stops_from_ten():
+    books = Books(("N",), 1, 0)
+    t, start = np.array([0.0, 1.0]), np.zeros((1, 1))
+
+    def said(surplus):
+        # a state, then the balance and the energy moved; nothing is stored at the end
+        xs = np.array([[0, 0, 0], [0, -surplus, 1.0]])
+        return verdict(books, t, xs, np.vstack([start, start]))
+
+    assert said(0.005) is None
+    assert said(-0.5) is None
+    assert said(0.05).severity == "warning"
+    assert said(0.15).severity == "error"
