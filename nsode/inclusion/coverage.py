@@ -29,7 +29,7 @@ def check_coverage(rates: Sequence[Rate], states: Sequence[State]) -> None:
     Raises
     ------
     ModelError
-        NS107 and NS108.
+        NS107 and NS108, and NS109 for equations of elements that do not exist.
     """
     found: dict[str, list[Rate]] = {}
     for rate in rates:
@@ -48,20 +48,37 @@ def _uncovered(state: State, mine: Sequence[Rate]) -> list[Diagnostic]:
             return list(doubled(state.name, mine[1].span, mine[0].span).diagnostics)
         return [] if mine else [_missing(state, state.name)]
     problems: list[Diagnostic] = []
-    expected = state.range.first
+    expected, last = state.range.first, state.range.last
     for rate in mine:
         assert rate.range is not None
         if len(rate.range) == 0:
             continue
+        outside = [k for k in rate.range[1:] if not state.range.first <= k <= last]
+        if outside:
+            problems.append(_outside(state, outside[0], rate))
+            return problems
         if rate.range.first < expected:
             name = element(state.name, rate.range.first)
             problems.extend(doubled(name, rate.span, mine[0].span).diagnostics)
         elif rate.range.first > expected:
             problems.append(_missing(state, element(state.name, expected)))
         expected = max(expected, rate.range.last + 1)
-    if expected <= state.range.last and len(state.range):
+    if expected <= last:
         problems.append(_missing(state, element(state.name, expected)))
     return problems
+
+
+def _outside(state: State, k: int, rate: Rate) -> Diagnostic:
+    assert state.range is not None
+    return Diagnostic(
+        "NS109",
+        f"`{element(state.name, k)}` does not exist",
+        (
+            Label(rate.span, "this equation is for it"),
+            Label(state.span, f"goes from {state.range.first} to {state.range.last}"),
+        ),
+        help="give the equation the range of the state",
+    )
 
 
 def _missing(state: State, element: str) -> Diagnostic:

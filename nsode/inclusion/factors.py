@@ -98,8 +98,8 @@ def _unproved(prover: Prover, term: SetValuedTerm, factor: Expr, source: Source)
                 "NS201",
                 f"cannot prove that the factor `{shown}` of `sgn({argument})` is nonnegative",
                 tuple(labels),
-                notes=(_reason(prover, culprit),),
-                help=_way_out(prover, culprit),
+                notes=(_reason(prover, culprit, source),),
+                help=_way_out(prover, culprit, source),
             )
         ]
     )
@@ -124,6 +124,8 @@ def _inner(prover: Prover, culprit: _Culprit) -> _Culprit | None:
     """Return the part of a part that stands in the way, None where there is no smaller one."""
     expr, wanted, over = culprit
     match expr:
+        case Call("+", args) if any(_is_taken_away(arg) for arg in args):
+            return None
         case Call("+" | "*", args):
             parts = [(arg, wanted) for arg in args]
         case If(_, then, otherwise):
@@ -144,27 +146,47 @@ def _inner(prover: Prover, culprit: _Culprit) -> _Culprit | None:
     return None
 
 
-def _reason(prover: Prover, culprit: _Culprit) -> str:
+def _is_taken_away(term: Expr) -> bool:
+    match term:
+        case Call("neg", _):
+            return True
+        case Number(value):
+            return value < 0
+    return False
+
+
+def _reason(prover: Prover, culprit: _Culprit, source: Source) -> str:
     match culprit.part:
         case Name(id) if id in prover.parameters:
             values = prover.parameters[id].values
             return f"the parameter `{id}` is {min(values, default=0):g}"
-        case Name(id):
-            return f"nothing bounds `{id}` from below"
+        case Name():
+            return f"nothing bounds `{source.slice(culprit.part.span)}` from below"
         case Number(value):
             return f"{value:g} is negative"
-        case Call(function, _) if function.isalpha() and function != "neg":
+        case Call("+", _):
+            return "a difference may be negative"
+        case Call("neg", _):
+            return "a minus stands in front of it"
+        case Call(function, _) if function.isalpha():
             return f"`{function}` takes both signs"
     return "a part of it takes both signs"
 
 
-def _way_out(prover: Prover, culprit: _Culprit) -> str:
-    words = "greater than 0" if culprit.wanted == ">" else "that is not negative"
+def _way_out(prover: Prover, culprit: _Culprit, source: Source) -> str:
+    text = source.slice(culprit.part.span)
+    positive = culprit.wanted == ">"
     match culprit.part:
         case Name(id) if id in prover.parameters:
+            words = "greater than 0" if positive else "that is not negative"
             return f"give `{id}` a value {words}"
-        case Name(id) if culprit.wanted == ">":
-            return f"divide by something positive, or state `assume {id} > 0` if it always holds"
-        case Name(id):
-            return f"write `abs({id})`, or state `assume {id} >= 0` if it always holds"
+        case Name(at=Index()):
+            return f"write `abs({text})` or `max(0, {text})`"
+        case Name() if positive:
+            return f"divide by something positive, or state `assume {text} > 0` if it always holds"
+        case Name():
+            return f"write `abs({text})`, or state `assume {text} >= 0` if it always holds"
+        case Call("+", (left, Call("neg", (right,)))):
+            assumed = f"assume {source.slice(left.span)} >= {source.slice(right.span)}"
+            return f"write `max(0, {text})`, or state `{assumed}` if it always holds"
     return "write `abs(...)` or `max(0, ...)`, or state `assume ... >= 0` if it always holds"

@@ -54,18 +54,22 @@ class Bounds:
             over = indices[at.variable]
             low, high = over.first + at.offset, over.last + at.offset
         if low < family.first or high > family.last:
-            outside = low if low < family.first else high
-            raise _outside(expr, outside, family)
+            raise _outside(expr, low if low < family.first else high, family)
 
 
 def _outside(expr: Name, k: int, family: IndexRange) -> ModelError:
     head = expr.id.partition(".")[0]
+    way_out = "write an element that exists"
+    if expr.at is not None and expr.at.variable is not None:
+        index = expr.at.variable
+        edge = f"> {family.first}" if k < family.first else f"< {family.last}"
+        way_out = f"shorten the range, or write `(if {index} {edge} then ... else ...)`"
     return refuse(
         "NS109",
         f"`{head}[{k}]` does not exist",
         expr.span,
         f"`{head}` goes from {family.first} to {family.last}",
-        help=f"shorten the range, or write `(if {family.variable} > {family.first} then ...)`",
+        help=way_out,
     )
 
 

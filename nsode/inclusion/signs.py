@@ -11,9 +11,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import product
 from typing import Literal
 
-from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, names
+from nsode.evaluate import evaluate
+from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, names, walk
 from nsode.inclusion.order import deepest_first
 from nsode.inclusion.sharing import ONE, Numbering
 from nsode.ode import Binding, Parameter
@@ -119,6 +121,8 @@ class Prover:
                 return self._all((then, goal), (otherwise, goal))
             case Call("neg", (inner,)):
                 return self._prove(inner, _OPPOSITE[goal])
+            case Call("+", _) if all(map(_is_affine, walk(expr))):
+                return _NOTHING if all(_holds(end, goal) for end in self._extremes(expr)) else None
             case Call("+", terms):
                 return self._sum(terms, goal)
             case Call("*" | "/", (left, right)):
@@ -147,6 +151,14 @@ class Prover:
             return (index.offset,)
         over = self._indices[index.variable]
         return (over.first + index.offset, over.last + index.offset) if len(over) else ()
+
+    def _extremes(self, expr: Expr) -> Iterator[float]:
+        """Yield a value that is linear in the indices at each corner of their ranges."""
+        read = {n.variable for n in walk(expr) if isinstance(n, Index) and n.variable is not None}
+        axes = [self._indices[variable] for variable in sorted(read)]
+        if all(map(len, axes)):
+            for corner in product(*((over.first, over.last) for over in axes)):
+                yield evaluate(expr, _no_name, dict(zip(sorted(read), corner, strict=True)))
 
     def _all(self, *goals: tuple[Expr, Goal]) -> Proof | None:
         guards = _NOTHING
@@ -230,6 +242,20 @@ def _holds(value: float, goal: Goal) -> bool:
         case "<=":
             return value <= 0
     return value < 0
+
+
+def _is_affine(expr: Expr) -> bool:
+    """Tell whether a part of an expression may stand in one that is linear in indices."""
+    match expr:
+        case Number() | Index() | Call("+" | "neg", _):
+            return True
+        case Call("*", (Number(), _) | (_, Number())):
+            return True
+    return False
+
+
+def _no_name(name: str, at: int | None) -> float:
+    raise AssertionError(name)
 
 
 def _axes(binding: Binding) -> tuple[IndexRange, ...]:
