@@ -26,40 +26,48 @@ def constants(inclusion: DifferentialInclusion) -> tuple[Parameter, ...]:
         NS306 for an unknown law, NS301 and NS302 for values that the law cannot use, NS308
         for targets.
     """
-    formulas: dict[str, Expr | None] = {}
-    owners: dict[str, SetValuedTerm] = {}
-    terms: list[SetValuedTerm] = []
-    problems: list[Diagnostic] = []
+    terms, problems = _usable(inclusion)
     fixed = Fixed.of(inclusion)
-    for term in _by_kind(inclusion):
-        try:
-            given = _given(term)
-        except ModelError as error:
-            problems.extend(error.diagnostics)
-            continue
-        terms.append(term)
+    formulas: dict[str, Expr | None] = {}
+    for term in terms:
+        given = dict(term.approximation.constants)
         for constant in needed(term):
-            name = f"{term.name}.{constant.name}"
-            formulas[name] = given.get(constant.name, fixed.formula(constant.default))
-            owners[name] = term
+            formula = given.get(constant.name, fixed.formula(constant.default))
+            formulas[f"{term.name}.{constant.name}"] = formula
     unknown = {} if problems else dict.fromkeys(_unknown(inclusion, formulas))
     if unknown:
         raise ModelError(unknown, inclusion.source)
     single = {p.name: p.values[0] for p in inclusion.parameters if len(p.values) == 1}
     values = _values(formulas, single)
-    found: list[Parameter] = []
-    for name, formula in formulas.items():
-        read = formula if formula is not None and any(True for _ in names(formula)) else None
-        span = NOWHERE if formula is None else formula.span
-        if span == NOWHERE:
-            span = owners[name].span
-        found.append(
-            Parameter(name, (values[name],), formula=read, constant_of=owners[name].name, span=span)
-        )
+    found = [
+        _parameter(term, name, formulas[name], values[name])
+        for term in terms
+        for name in (f"{term.name}.{constant.name}" for constant in needed(term))
+    ]
     problems.extend(_broken(terms, found, formulas))
     if problems:
         raise ModelError(dict.fromkeys(problems), inclusion.source)
     return tuple(found)
+
+
+def _usable(inclusion: DifferentialInclusion) -> tuple[list[SetValuedTerm], list[Diagnostic]]:
+    """Return the terms whose law and settings exist, and what is wrong with the others."""
+    terms: list[SetValuedTerm] = []
+    problems: list[Diagnostic] = []
+    for term in _by_kind(inclusion):
+        try:
+            _check_law(term)
+            _check_settings(term)
+            terms.append(term)
+        except ModelError as error:
+            problems.extend(error.diagnostics)
+    return terms, problems
+
+
+def _parameter(term: SetValuedTerm, name: str, formula: Expr | None, value: float) -> Parameter:
+    read = formula if formula is not None and any(True for _ in names(formula)) else None
+    span = term.span if formula is None or formula.span == NOWHERE else formula.span
+    return Parameter(name, (value,), formula=read, constant_of=term.name, span=span)
 
 
 def guards(inclusion: DifferentialInclusion) -> Iterator[Check]:
@@ -102,9 +110,8 @@ def _unknown(
             )
 
 
-def _given(term: SetValuedTerm) -> Mapping[str, Expr]:
+def _check_settings(term: SetValuedTerm) -> None:
     approximation = term.approximation
-    _check_law(term)
     known = [constant.name for constant in needed(term)]
     for name, value in approximation.constants:
         if name not in known:
@@ -128,7 +135,6 @@ def _given(term: SetValuedTerm) -> Mapping[str, Expr]:
             value.span,
             help="give K, beta and, for dio, alpha",
         )
-    return dict(approximation.constants)
 
 
 def _check_law(term: SetValuedTerm) -> None:

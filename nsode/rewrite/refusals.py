@@ -2,18 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.expr import Expr, names
-from nsode.ode import (
-    Binding,
-    Definition,
-    DifferentialInclusion,
-    LinearSolve,
-    SetValuedTerm,
-    defined,
-)
+from nsode.ode import Definition, DifferentialInclusion, SetValuedTerm, defined, expressions
 from nsode.regularizations import LAWS
 
 
@@ -48,26 +39,16 @@ def check_laws(inclusion: DifferentialInclusion) -> None:
 
 
 def _reached(expr: Expr, definitions: dict[str, Definition]) -> set[str]:
-    """Return the names that an expression reads, through definitions too."""
+    """Return the names that an expression reads, through definitions but not through terms."""
     found: set[str] = set()
     waiting = [name.id for name in names(expr)]
     while waiting:
         name = waiting.pop()
-        if name not in found:
-            found.add(name)
-            waiting.extend(_read(definitions.get(name)))
+        item = definitions.get(name)
+        if name not in found and item is not None and not isinstance(item, SetValuedTerm):
+            waiting.extend(read.id for part in expressions(item) for read in names(part))
+        found.add(name)
     return found
-
-
-def _read(item: Definition | None) -> Iterator[str]:
-    match item:
-        case Binding(value=value):
-            yield from (name.id for name in names(value))
-        case LinearSolve(matrix=matrix, right=right):
-            for expr in (*(entry for row in matrix for entry in row), *right):
-                yield from (name.id for name in names(expr))
-        case SetValuedTerm() | None:
-            return
 
 
 def _moved(term: SetValuedTerm, name: str) -> Diagnostic:

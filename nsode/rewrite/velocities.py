@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from nsode.derivative import Row, time_derivatives
@@ -10,12 +10,11 @@ from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.expr import Expr, names
 from nsode.inclusion.order import loop, order
 from nsode.ode import (
-    Binding,
     Definition,
     DifferentialInclusion,
-    LinearSolve,
     SetValuedTerm,
     defined,
+    expressions,
 )
 from nsode.regularizations import LAWS
 
@@ -60,20 +59,10 @@ def _ordered(
 
 
 def _reads(item: Definition, velocities: Velocities) -> Iterator[str]:
-    for expr in _expressions(item):
+    for expr in expressions(item):
         yield from (name.id for name in names(expr))
     if isinstance(item, SetValuedTerm) and item.name in velocities:
         yield from (name.id for name in names(velocities[item.name]))
-
-
-def _expressions(item: Definition) -> Iterable[Expr]:
-    match item:
-        case Binding(value=value):
-            return (value,)
-        case LinearSolve(matrix=matrix, right=right):
-            return (*(entry for row in matrix for entry in row), *right)
-        case SetValuedTerm(argument=argument, factor=factor):
-            return argument if factor is None else (*argument, factor)
 
 
 def _first_order(items: list[Definition], velocities: Velocities) -> Diagnostic:
