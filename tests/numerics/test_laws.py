@@ -93,6 +93,19 @@ def test_kelvin_voigt_is_equation_15_and_clipped_equation_16(law):
         near(module, model, p, x, {"v": expected / p["M"]})
 
 
+def test_each_contact_of_a_family_reads_its_own_closing_speed():
+    model = shipped("granular_column", contact="kelvin_voigt")
+    module = load_module(model.ode)
+    p = numbers(model)
+    n, d, m = 10, p["d"], p["m"]
+    for x in points(model, [d] * n + [1] * n, 50):
+        z, v = x[:n], x[n:]
+        psi = np.diff(z, prepend=-d / 2) - d
+        f = np.where(psi <= 0, -p["N.K"] * psi - p["N.B"] * np.diff(v, prepend=0), 0)
+        expected = (f - np.append(f[1:], 0)) / m - p["g"]
+        np.testing.assert_allclose(module.rhs(0.0, x)[n:], expected, rtol=1e-10, atol=1e-7)
+
+
 @pytest.mark.parametrize("n", [1.0, 1.5, 2.0])
 def test_hunt_crossley_is_its_formula_and_never_pulls(n):
     model = shipped("bouncing_mass", contact="hunt_crossley")
