@@ -137,7 +137,9 @@ def refuse(
 
 def suggest(name: str, known: Iterable[str]) -> str | None:
     """Return ``did you mean ...`` for a misspelt name, None where nothing is near."""
-    near = get_close_matches(name, list(known), n=1, cutoff=0.6)
+    names = list(known)
+    swapped = [other for other in names if sorted(other) == sorted(name)]
+    near = swapped or get_close_matches(name, names, n=1, cutoff=0.6)
     return f"did you mean `{near[0]}`?" if near else None
 
 

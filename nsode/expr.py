@@ -8,7 +8,7 @@ scalar: names are those of parameters, states, inputs, bindings and ``t``.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from nsode.source import NOWHERE, Span
@@ -171,19 +171,20 @@ def names(expr: Expr) -> Iterator[Name]:
 def rebuild(expr: Expr, change: Callable[[Expr], Expr]) -> Expr:
     """Return ``expr`` with ``change`` applied to each direct child; itself if none changed."""
     match expr:
-        case Call(args=args):
-            changed = tuple(change(arg) for arg in args)
-            if all(new is old for new, old in zip(changed, args, strict=True)):
-                return expr
-            return replace(expr, args=changed)
+        case Call(function, args):
+            changed = tuple([change(arg) for arg in args])
+            for new, old in zip(changed, args, strict=True):
+                if new is not old:
+                    return Call(function, changed, span=expr.span)
+            return expr
         case If(condition, then, otherwise):
             c, a, b = change(condition), change(then), change(otherwise)
             if c is condition and a is then and b is otherwise:
                 return expr
-            return replace(expr, condition=c, then=a, otherwise=b)
-        case Sum(body=body):
+            return If(c, a, b, span=expr.span)
+        case Sum(range, body):
             inner = change(body)
-            return expr if inner is body else replace(expr, body=inner)
+            return expr if inner is body else Sum(range, inner, span=expr.span)
         case _:
             return expr
 

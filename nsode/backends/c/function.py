@@ -10,8 +10,8 @@ from textwrap import wrap
 from nsode.backends.c import jacobian, solve
 from nsode.backends.c.expressions import condition, lower
 from nsode.backends.c.plan import Group, Plan, Require, Scatter, Store, Work, plan
-from nsode.backends.c.program import Program, Vector
-from nsode.expr import TIME, Index, IndexRange, Name, Sum
+from nsode.backends.c.program import Program, Text, Vector
+from nsode.expr import TIME, Expr, Index, IndexRange, Name, Sum
 from nsode.ode import Binding, LinearSolve
 
 _LOOP_VARIABLES = "ijk"
@@ -41,6 +41,7 @@ class Writer:
     depth: int = 1
     loops: int = 0
     count: int = 0
+    indexed: bool = False
 
     @property
     def single(self) -> bool:
@@ -123,12 +124,11 @@ class Writer:
     def _work(self, work: Work) -> None:
         match work:
             case Binding(name=name, value=value, range=over):
-                text = lower(value, self)
-                self.define(name, over, text)
+                self.define(name, over, self._text(value))
             case LinearSolve():
                 solve.write(work, self)
             case Store(array, place, value, over, first):
-                text = lower(value, self)
+                text = self._text(value)
                 where = place if over is None else self._added(place, Index(over.variable), first)
                 self.line(f"{array}[{where}] = {text};")
             case Require(test, status, _):
@@ -138,6 +138,22 @@ class Writer:
                 self.line("}")
             case Scatter():
                 jacobian.write(work, self)
+
+    def _text(self, value: Expr) -> str:
+        """Return the C of a value; what no index and no array comes into is written once."""
+        if self.indices:
+            return lower(value, self)
+        known = self.program.texts.get(id(value))
+        if known is None:
+            lines, outer, self.loads = len(self.lines), self.loads, {}
+            self.indexed = False
+            text = lower(value, self)
+            known = Text(value, text, self.loads)
+            if len(self.lines) == lines and not self.indexed:
+                self.program.texts[id(value)] = known
+            self.loads = outer
+        self.loads.update(known.loads)
+        return known.text
 
     def define(self, name: str, over: IndexRange | None, text: str) -> None:
         """Write the value of a binding where readers look for it."""
@@ -166,6 +182,7 @@ class Writer:
         """Return the C text of a named value."""
         if name.id == TIME and name.at is None:
             return TIME
+        self.indexed |= name.at is not None
         for order, vector in enumerate((self.program.x, self.program.u, self.program.p)):
             if name.id in vector.slots:
                 return self._loaded(order, vector, name)
@@ -184,12 +201,17 @@ class Writer:
 
     def _loaded(self, order: int, vector: Vector, name: Name) -> str:
         local = vector.names[name.id]
-        place = self.program.enumerator(vector, name.id)
         offset, over = vector.slots[name.id]
+        single = over is None or name.at is None
+        if (order, offset) not in self.loads:
+            place = self.program.enumerator(vector, name.id)
+            self.loads[order, offset] = (
+                f"const real {local} = {vector.letter}[{place}];"
+                if single
+                else f"const real *const {local} = {vector.letter} + {place};"
+            )
         if over is None or name.at is None:
-            self.loads[order, offset] = f"const real {local} = {vector.letter}[{place}];"
             return local
-        self.loads[order, offset] = f"const real *const {local} = {vector.letter} + {place};"
         return f"{local}[{_offset(self._at(name.at), name.at.offset - over.first)}]"
 
     def _at(self, index: Index) -> str | int:

@@ -10,6 +10,7 @@ from nsode.backends import Options
 from nsode.backends.c.jacobian import Arranged, arranged
 from nsode.backends.c.names import Mangler, identifier, mangled
 from nsode.backends.jacobian import sparse_jacobian
+from nsode.expr import Expr
 from nsode.ode import AugmentedODE, Check, Placed, Slot, layout, size
 from nsode.passes.reciprocal import multiply_by_reciprocals
 from nsode.passes.split import split, split_check
@@ -29,12 +30,21 @@ class Vector(NamedTuple):
         return sum(map(size, self.items))
 
 
+class Text(NamedTuple):
+    """A value as C, and the loads that it needs; it holds on to the value for its id."""
+
+    value: Expr
+    text: str
+    loads: dict[tuple[int, int], str]
+
+
 @dataclass(frozen=True, slots=True)
 class Program:
     """One model on its way to C; ``ode`` is in pieces.
 
     ``checks`` pairs each piece of a check with the number of the check in the model.
-    ``used`` collects the helpers and library functions that the text calls.
+    ``used`` collects the helpers and library functions that the text calls, ``texts`` what
+    several functions compute alike.
     """
 
     ode: AugmentedODE
@@ -48,6 +58,7 @@ class Program:
     checks: tuple[tuple[int, Check], ...]
     jacobian: Arranged
     used: set[str] = field(default_factory=set)
+    texts: dict[int, Text] = field(default_factory=dict)
 
     @property
     def vectors(self) -> tuple[Vector, ...]:
