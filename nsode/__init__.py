@@ -13,9 +13,10 @@ if TYPE_CHECKING:
     from nsode.compiler import Model as Model
     from nsode.compiler import load as load
     from nsode.compiler import loads as loads
+    from nsode.limits import Limits as Limits
 
 __version__ = "0.1.0"
-__all__ = ["Model", "__version__", "load", "loads"]
+__all__ = ["Limits", "Model", "__version__", "load", "loads"]
 
 
 def __getattr__(name: str) -> object:
@@ -24,4 +25,8 @@ def __getattr__(name: str) -> object:
         from nsode import compiler
 
         return getattr(compiler, name)
+    if name == "Limits":
+        from nsode.limits import Limits
+
+        return Limits
     raise AttributeError(f"module `nsode` has no attribute `{name}`")

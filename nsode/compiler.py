@@ -14,6 +14,7 @@ from nsode.backends import emit as emit_target
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.files import write_all
 from nsode.inclusion.build import build
+from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.ode import AugmentedODE, DifferentialInclusion, size
 from nsode.regularizations import Kind
 from nsode.rewrite import rewrite
@@ -312,19 +313,19 @@ class Model:
         )
 
 
-def load(path: str | Path) -> Model:
-    """Compile the model in a file.
+def load(path: str | Path, *, limits: Limits = DEFAULT_LIMITS) -> Model:
+    """Compile the model in a file; ``limits`` say how large it may be.
 
     Raises
     ------
     ModelError
         If the file cannot be read or the model is refused.
     """
-    return compile_source(read(Path(path)))
+    return compile_source(read(Path(path), limits), limits)
 
 
-def loads(text: str | bytes, name: str = "<string>") -> Model:
-    """Compile a model from its text.
+def loads(text: str | bytes, name: str = "<string>", *, limits: Limits = DEFAULT_LIMITS) -> Model:
+    """Compile a model from its text; ``limits`` say how large it may be.
 
     Raises
     ------
@@ -332,11 +333,11 @@ def loads(text: str | bytes, name: str = "<string>") -> Model:
         If the model is refused.
     """
     data = text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
-    return compile_source(decode(name, data))
+    return compile_source(decode(name, data, limits), limits)
 
 
-def compile_source(source: Source) -> Model:
-    """Compile a model from its source.
+def compile_source(source: Source, limits: Limits = DEFAULT_LIMITS) -> Model:
+    """Compile a model from its source; ``limits`` say how large it may be.
 
     Raises
     ------
@@ -345,7 +346,7 @@ def compile_source(source: Source) -> Model:
     """
     with _without_collector():
         try:
-            inclusion, diagnostics = build(parse(source))
+            inclusion, diagnostics = build(parse(source, limits), limits)
             ode = rewrite(inclusion)
             return Model(inclusion, ode, (*diagnostics, *_remarks(inclusion, ode)))
         except ModelError as error:

@@ -6,8 +6,9 @@ import json
 
 import click
 
-from nsode.cli.model import load
+from nsode.cli.model import limit_option, load
 from nsode.cli.terminal import complain, say
+from nsode.limits import Limits
 
 
 @click.command()
@@ -20,7 +21,8 @@ from nsode.cli.terminal import complain, say
     "--impact-speed", type=click.FloatRange(min=0, min_open=True), metavar="M/S",
     help="Of the impacts that are shown.  [default: the first from the start]",
 )  # fmt: skip
-def command(model: str, style: str, impact_speed: float | None) -> int:
+@limit_option
+def command(model: str, style: str, impact_speed: float | None, limits: Limits) -> int:
     """Show what is known of MODEL before it runs.
 
     Effective mass, the largest stable step of each method and what limits it, restitution,
@@ -28,7 +30,7 @@ def command(model: str, style: str, impact_speed: float | None) -> int:
     """
     from nsode.analysis import analyze
 
-    loaded = load(model)
+    loaded = load(model, limits)
     found = analyze(loaded.inclusion, loaded.ode, impact_speed=impact_speed)
     said = {(d.code, d.message) for d in loaded.diagnostics}
     fresh = [d for d in found.diagnostics if (d.code, d.message) not in said]

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import click
 
 from nsode.cli.failure import REFUSED, status_of
-from nsode.cli.model import STANDARD_INPUT, load, summary
+from nsode.cli.model import STANDARD_INPUT, limit_option, load, summary
 from nsode.cli.terminal import complain, say
 from nsode.diagnostics import SCHEMA_VERSION, Diagnostic, ModelError, as_json
+from nsode.limits import Limits
 from nsode.source import Source
 
 
@@ -33,31 +34,32 @@ class Finding:
 )  # fmt: skip
 @click.option("--strict", is_flag=True, help="Refuse what draws a warning.")
 @click.option("--watch", is_flag=True, help="Check again whenever a model changes, until Ctrl-C.")
-def command(models: tuple[str, ...], style: str, strict: bool, watch: bool) -> int:
+@limit_option
+def command(models: tuple[str, ...], style: str, strict: bool, watch: bool, limits: Limits) -> int:
     """Say whether MODELS are sound, and what is wrong where they are not.
 
     Exit code 0: all are; 1: one is refused; 2: one cannot be read.
     """
     if not watch:
-        return _check(models, style, strict)
+        return _check(models, style, strict, limits)
     if STANDARD_INPUT in models:
         raise click.UsageError("`--watch` needs files, not standard input")
-    return _watch(models, style, strict)
+    return _watch(models, style, strict, limits)
 
 
-def _watch(models: Sequence[str], style: str, strict: bool) -> int:
+def _watch(models: Sequence[str], style: str, strict: bool, limits: Limits) -> int:
     from nsode.cli.watch import watched
 
     try:
         for _ in watched(models):
-            _check(models, style, strict)
+            _check(models, style, strict, limits)
     except KeyboardInterrupt:
         pass
     return 0
 
 
-def _check(models: Sequence[str], style: str, strict: bool) -> int:
-    findings = [_examine(model, strict) for model in models]
+def _check(models: Sequence[str], style: str, strict: bool, limits: Limits) -> int:
+    findings = [_examine(model, strict, limits) for model in models]
     if style == "json":
         say(json.dumps({"schema_version": SCHEMA_VERSION, "files": list(map(_plain, findings))}))
     else:
@@ -66,9 +68,9 @@ def _check(models: Sequence[str], style: str, strict: bool) -> int:
     return max(finding.status for finding in findings)
 
 
-def _examine(argument: str, strict: bool) -> Finding:
+def _examine(argument: str, strict: bool, limits: Limits) -> Finding:
     try:
-        model = load(argument)
+        model = load(argument, limits)
     except ModelError as error:
         source = error.source or Source(argument, "")
         return Finding(source, error.diagnostics, None, status_of(error))

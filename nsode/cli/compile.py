@@ -10,10 +10,11 @@ import click
 
 from nsode.backends import TARGETS, Options
 from nsode.cli.failure import USAGE, io_diagnostic
-from nsode.cli.model import law_options, load, summary
+from nsode.cli.model import law_options, limit_option, load, summary
 from nsode.cli.terminal import bold, complain, quiet, say
 from nsode.diagnostics import ModelError
 from nsode.files import write_all
+from nsode.limits import Limits
 from nsode.ode import AugmentedODE
 from nsode.passes.count import operations
 
@@ -80,6 +81,7 @@ def _numbers(
     "--ledger", is_flag=True,
     help="Add what each element stores, dissipates and is given to the outputs.",
 )  # fmt: skip
+@limit_option
 def command(
     model: str,
     target: str,
@@ -91,13 +93,14 @@ def command(
     ledger: bool,
     friction: str | None,
     contact: str | None,
+    limits: Limits,
 ) -> int:
     """Write MODEL as code that integrates.
 
     The C is plain C99 without allocation: copy it anywhere. Every file is written
     whole, or none is.
     """
-    loaded = load(model, friction=friction, contact=contact)
+    loaded = load(model, limits, friction=friction, contact=contact)
     complain(loaded.diagnostics, loaded.source)
     if ledger:
         loaded = loaded.with_ledger()

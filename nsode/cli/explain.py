@@ -8,9 +8,10 @@ from pathlib import Path
 import click
 
 from nsode.cli.failure import USAGE, io_diagnostic
-from nsode.cli.model import law_options, load
+from nsode.cli.model import law_options, limit_option, load
 from nsode.cli.terminal import complain, paints, say
 from nsode.files import write_all
+from nsode.limits import Limits
 
 
 @click.command()
@@ -24,8 +25,14 @@ from nsode.files import write_all
     help="The file to write.  [default: standard output]",
 )  # fmt: skip
 @law_options
+@limit_option
 def command(
-    model: str, style: str, output: Path | None, friction: str | None, contact: str | None
+    model: str,
+    style: str,
+    output: Path | None,
+    friction: str | None,
+    contact: str | None,
+    limits: Limits,
 ) -> int:
     """Show how the differential inclusion of MODEL becomes an ODE.
 
@@ -34,7 +41,7 @@ def command(
     """
     from nsode.explain import explain
 
-    loaded = load(model, friction=friction, contact=contact)
+    loaded = load(model, limits, friction=friction, contact=contact)
     explanation = explain(loaded.inclusion, loaded.ode)
     match style:
         case "text":

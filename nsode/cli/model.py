@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import fields
 from typing import TYPE_CHECKING, TypeVar
 
 import click
 
+from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.ode import Binding, SetValuedTerm, size
 from nsode.regularizations import laws_of
 from nsode.source import Source
-from nsode.syntax.limits import DEFAULT_LIMITS
 from nsode.syntax.reading import decode, read
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ STANDARD_INPUT = "-"
 _SHOWN = 6
 
 
-def source_of(argument: str) -> Source:
+def source_of(argument: str, limits: Limits = DEFAULT_LIMITS) -> Source:
     """Read the model that an argument names.
 
     Raises
@@ -31,11 +32,17 @@ def source_of(argument: str) -> Source:
         If it cannot be read.
     """
     if argument == STANDARD_INPUT:
-        return decode("<stdin>", sys.stdin.buffer.read(DEFAULT_LIMITS.size + 1))
-    return read(argument)
+        return decode("<stdin>", sys.stdin.buffer.read(limits.size + 1), limits)
+    return read(argument, limits)
 
 
-def load(argument: str, *, friction: str | None = None, contact: str | None = None) -> Model:
+def load(
+    argument: str,
+    limits: Limits = DEFAULT_LIMITS,
+    *,
+    friction: str | None = None,
+    contact: str | None = None,
+) -> Model:
     """Load the model that an argument names, under other laws if they are named.
 
     Raises
@@ -45,7 +52,7 @@ def load(argument: str, *, friction: str | None = None, contact: str | None = No
     """
     from nsode import compiler
 
-    model = compiler.compile_source(source_of(argument))
+    model = compiler.compile_source(source_of(argument, limits), limits)
     return model.with_law(friction=friction, contact=contact)
 
 
@@ -59,6 +66,29 @@ def law_options(command: _Command) -> _Command:
         text = f"Another law for every {kind}: {', '.join(laws)}."
         command = click.option(option, type=click.Choice(laws), metavar="LAW", help=text)(command)
     return command
+
+
+def limit_option(command: _Command) -> _Command:
+    """Give a command the option ``--limit``, which becomes its argument ``limits``."""
+    names = ", ".join(field.name for field in fields(Limits))
+    return click.option(
+        "--limit", "limits", callback=_limits, multiple=True, metavar="NAME=NUMBER",
+        help=f"Raise a limit of what a model may take; may be repeated: {names}.",
+    )(command)  # fmt: skip
+
+
+def _limits(context: click.Context, parameter: click.Parameter, value: tuple[str, ...]) -> Limits:
+    found: dict[str, int] = {}
+    for item in value:
+        name, _, number = item.partition("=")
+        try:
+            found[name.strip()] = int(float(number))
+        except (ValueError, OverflowError):
+            raise click.BadParameter(f"`{item}` is not NAME=NUMBER") from None
+    try:
+        return Limits.of(found)
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
 
 
 def summary(model: Model) -> str:

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 
 from nsode.cli.failure import USAGE, io_diagnostic, missing
-from nsode.cli.model import law_options, load
+from nsode.cli.model import law_options, limit_option, load
 from nsode.cli.terminal import complain, quiet, say
 from nsode.diagnostics import Diagnostic, ModelError
+from nsode.limits import Limits
 
 if TYPE_CHECKING:
     from nsode.compiler import Model
@@ -59,6 +60,7 @@ _PLOT = "-"  # what `--plot` without a file stands for
 @click.option("--strict", is_flag=True, help="Refuse what draws a warning before the run.")
 @click.option("--no-guard", is_flag=True, help="Go on where energy comes from nothing.")
 @law_options
+@limit_option
 def command(
     model: str,
     duration: float | None,
@@ -74,6 +76,7 @@ def command(
     no_guard: bool,
     friction: str | None,
     contact: str | None,
+    limits: Limits,
 ) -> int:
     """Run MODEL as compiled C and show what happened.
 
@@ -82,7 +85,7 @@ def command(
     """
     from nsode.simulate import Manner, RunError, Wish
 
-    loaded = load(model, friction=friction, contact=contact)
+    loaded = load(model, limits, friction=friction, contact=contact)
     drawing = None if plot is None else Path(f"{loaded.name}.png" if plot == _PLOT else plot)
     _check_places(output, drawing)
     complain([d for d in loaded.diagnostics if d.code != "NS407"], loaded.source)

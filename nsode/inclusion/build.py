@@ -24,9 +24,11 @@ from nsode.inclusion.rows import Rows
 from nsode.inclusion.settings import Approximations, run
 from nsode.inclusion.sharing import Numbering
 from nsode.inclusion.solving import solve
+from nsode.inclusion.start import moving_starts
 from nsode.inclusion.symbols import Scope, Symbols
 from nsode.inclusion.units import check_units, in_si
 from nsode.inclusion.values import each, scalars, shape, suffixes
+from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.ode import (
     Check,
     Definition,
@@ -44,7 +46,9 @@ from nsode.ode import (
 from nsode.syntax import ast
 
 
-def build(model: ast.Model) -> tuple[DifferentialInclusion, tuple[Diagnostic, ...]]:
+def build(
+    model: ast.Model, limits: Limits = DEFAULT_LIMITS
+) -> tuple[DifferentialInclusion, tuple[Diagnostic, ...]]:
     """Return the differential inclusion of a model, with warnings and notes.
 
     Raises
@@ -52,7 +56,7 @@ def build(model: ast.Model) -> tuple[DifferentialInclusion, tuple[Diagnostic, ..
     ModelError
         With every error that was found, in the order of the text.
     """
-    course = _Course(model)
+    course = _Course(model, limits)
     course.declare()
     course.define()
     course.equations()
@@ -72,8 +76,9 @@ def build(model: ast.Model) -> tuple[DifferentialInclusion, tuple[Diagnostic, ..
 @dataclass(slots=True)
 class _Course:
     model: ast.Model
-    symbols: Symbols = field(default_factory=Symbols)
-    review: Review = field(default_factory=Review)
+    limits: Limits
+    symbols: Symbols = field(init=False)
+    review: Review = field(init=False)
     report: Report = field(init=False)
     declared: Declarations = field(init=False)
     definitions: Definitions = field(init=False)
@@ -84,6 +89,8 @@ class _Course:
     hints: Run = field(default_factory=Run)
 
     def __post_init__(self) -> None:
+        self.symbols = Symbols(self.limits)
+        self.review = Review(self.limits)
         self.report = Report(self.model.source)
         self.declared = Declarations(self.symbols, self.review)
         self.definitions = Definitions(self.symbols, self.review, self.report)
@@ -231,6 +238,7 @@ class _Course:
     def check(self, inclusion: DifferentialInclusion) -> None:
         """Check subscripts, the hypotheses of the method, and the sign of each factor."""
         self._check_subscripts(inclusion)
+        self.report.found.extend(moving_starts(inclusion, self.symbols))
         self.report.raise_errors()
         hypotheses = Hypotheses(base_reads(state.name for state in inclusion.states))
         prover = prover_of(inclusion, self.checks)

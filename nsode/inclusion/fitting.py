@@ -6,13 +6,11 @@ from collections.abc import Sequence
 
 from nsode.diagnostics import ModelError, refuse
 from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, walk
-from nsode.inclusion.indices import check_size, integer
+from nsode.inclusion.indices import integer
 from nsode.inclusion.symbols import Scope
 from nsode.inclusion.values import Shape, Value, describe, from_scalars, scalars, shape
+from nsode.limits import either
 from nsode.syntax.ast import Declarator
-
-#: Larger vectors are families.
-LARGEST_VECTOR = 16
 
 
 def declared_shape(declarator: Declarator, scope: Scope) -> Shape | None:
@@ -21,7 +19,8 @@ def declared_shape(declarator: Declarator, scope: Scope) -> Shape | None:
     Raises
     ------
     ModelError
-        NS111 for a size that is no whole number, NS105 for one below 1 or above 16.
+        NS111 for a size that is no whole number, NS105 for one below 1, NS014 for one
+        beyond the limit of a vector.
     """
     if not declarator.sizes:
         return None
@@ -29,13 +28,14 @@ def declared_shape(declarator: Declarator, scope: Scope) -> Shape | None:
     for size, written in zip(found, declarator.sizes, strict=True):
         if size < 1:
             raise refuse("NS105", "a size must be at least 1", written.span, f"this is {size}")
-        check_size(size, written.span)
-        if size > LARGEST_VECTOR:
+        limits = scope.symbols.limits
+        if size > limits.vector:
+            family = f"declare a family, such as `x[i in 1..{size}]`"
             raise refuse(
-                "NS105",
-                f"a vector of {size} is larger than {LARGEST_VECTOR}",
+                "NS014",
+                f"a vector of {size} is larger than {limits.vector}",
                 written.span,
-                help="declare a family: `state x[i in 1..n] = ...`",
+                help=either(family, limits.raised("vector", size)),
             )
     return found
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 from nsode.diagnostics import refuse, suggest
 from nsode.expr import Call, Expr, Index, IndexRange, Name, Number
 from nsode.inclusion.symbols import Scope, check_free
+from nsode.limits import Limits, either
 from nsode.source import Span
 from nsode.syntax.ast import Group, RangeSyntax
-
-#: More elements than this in one family or vector are refused.
-ELEMENT_LIMIT = 1_000_000
 
 
 def index(expr: Expr, scope: Scope) -> Index:
@@ -74,24 +72,17 @@ def index_range(syntax: RangeSyntax | None, scope: Scope) -> IndexRange | None:
     first = integer(syntax.first, scope, "the start of a range")
     last = integer(syntax.last, scope, "the end of a range")
     found = IndexRange(variable.text, first, last)
-    check_size(last - first + 1, syntax.span)
+    _check_size(last - first + 1, syntax.span, scope.symbols.limits)
     return found
 
 
-def check_size(count: int, span: Span) -> None:
-    """Refuse what is too large to compile.
-
-    Raises
-    ------
-    ModelError
-        NS014.
-    """
-    if count > ELEMENT_LIMIT:
+def _check_size(count: int, span: Span, limits: Limits) -> None:
+    if count > limits.elements:
         raise refuse(
             "NS014",
-            f"{count} elements are more than the limit of {ELEMENT_LIMIT}",
+            f"{count} elements are more than the limit of {limits.elements}",
             span,
-            help="shorten the range",
+            help=either("shorten the range", limits.raised("elements", count)),
         )
 
 

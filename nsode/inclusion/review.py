@@ -10,11 +10,7 @@ from nsode.diagnostics import refuse
 from nsode.evaluate import apply
 from nsode.expr import Call, Expr, Number, children
 from nsode.inclusion.values import Value, scalars
-
-#: The largest exponent that a number may have.
-EXPONENT_LIMIT = 64
-#: Operations in one expression after its vectors are written out.
-SIZE_LIMIT = 50_000
+from nsode.limits import Limits, either
 
 
 class _Seen(NamedTuple):
@@ -27,6 +23,7 @@ class _Seen(NamedTuple):
 class Review:
     """Looks at each expression once, however often it is shared."""
 
+    limits: Limits
     _seen: dict[int, _Seen] = field(default_factory=dict)
     _kept: list[Value] = field(default_factory=list)
 
@@ -43,12 +40,15 @@ class Review:
         size = 0
         for component in scalars(value):
             size += self._look(component).size
-            if size > SIZE_LIMIT:
+            if size > self.limits.operations:
                 raise refuse(
                     "NS011",
-                    f"more than {SIZE_LIMIT} operations when its vectors are written out",
+                    f"more than {self.limits.operations} operations when its vectors are "
+                    "written out",
                     component.span,
-                    help="name intermediate results with `let`",
+                    help=either(
+                        "name intermediate results with `let`", self.limits.raised("operations")
+                    ),
                 )
 
     def _look(self, expr: Expr) -> _Seen:
@@ -66,7 +66,7 @@ class Review:
             return _Seen(size, None, 1.0)
         constants = [part.constant for part in parts]
         if expr.function == "^":
-            _check_exponent(expr, constants[1])
+            _check_exponent(expr, constants[1], self.limits)
         known = [constant for constant in constants if constant is not None]
         if len(known) == len(constants):
             value = apply(expr.function, *known)
@@ -81,14 +81,17 @@ class Review:
         return _Seen(size, None, _coefficient(expr, parts))
 
 
-def _check_exponent(expr: Call, exponent: float | None) -> None:
-    if exponent is not None and abs(exponent) > EXPONENT_LIMIT:
+def _check_exponent(expr: Call, exponent: float | None, limits: Limits) -> None:
+    if exponent is not None and abs(exponent) > limits.exponent:
+        wanted = math.ceil(abs(exponent)) if math.isfinite(exponent) else 0
         raise refuse(
             "NS013",
-            f"the exponent {exponent:g} is larger than {EXPONENT_LIMIT}",
+            f"the exponent {exponent:g} is larger than {limits.exponent}",
             expr.args[1].span,
             "too large",
-            help="scale the quantity, or write `exp(a*log(b))`",
+            help=either(
+                "scale the quantity, write `exp(a*log(b))`", limits.raised("exponent", wanted)
+            ),
         )
 
 

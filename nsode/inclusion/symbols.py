@@ -10,6 +10,7 @@ from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
 from nsode.expr import FUNCTIONS, TIME, Call, IndexRange
 from nsode.inclusion.report import PoisonedError
 from nsode.inclusion.values import Shape, Value
+from nsode.limits import Limits
 from nsode.source import Span
 
 #: Functions of vectors and of the language, beside those of scalars.
@@ -46,8 +47,12 @@ class Symbol:
 
 @dataclass(slots=True)
 class Symbols:
-    """The names of one model; a name is declared before its shape is known."""
+    """The names of one model; a name is declared before its shape is known.
 
+    ``limits`` say how large what they stand for may be.
+    """
+
+    limits: Limits
     declared: dict[str, Span] = field(default_factory=dict)
     known: dict[str, Symbol] = field(default_factory=dict)
     used: set[str] = field(default_factory=set)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from nsode.syntax.limits import DEFAULT_LIMITS, Limits
 from nsode.syntax.parser import parse
 from nsode.syntax.reading import decode, read
 
-__all__ = ["DEFAULT_LIMITS", "Limits", "decode", "parse", "read"]
+__all__ = ["decode", "parse", "read"]

@@ -16,10 +16,10 @@ from lark.lexer import Lexer
 from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from nsode.diagnostics import Diagnostic, ModelError
+from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.source import Source
 from nsode.syntax import ast, depth, headers, slips
 from nsode.syntax.builder import Builder
-from nsode.syntax.limits import DEFAULT_LIMITS, Limits
 from nsode.syntax.misfit import Misfit
 from nsode.syntax.reading import too_large
 from nsode.syntax.scanner import StatementTokens, scan
@@ -149,7 +149,7 @@ def _parse_statement(statement: StatementTokens, limits: Limits) -> ast.Statemen
     tree = parser().parse(statement)
     may_be_deep = len(statement.tokens) > limits.depth
     if may_be_deep and (place := depth.beyond(tree, limits.depth)):
-        raise ModelError([slips.too_deep(place, limits.depth)])
+        raise ModelError([slips.too_deep(place, limits)])
     return tree
 
 
@@ -159,5 +159,6 @@ def _in_order(errors: list[Diagnostic], limits: Limits) -> list[Diagnostic]:
     kept = ordered[: limits.errors]
     if len(ordered) > len(kept):
         more = f"{len(ordered) - len(kept)} further errors are not shown"
-        kept[-1] = replace(kept[-1], notes=(*kept[-1].notes, more))
+        way_out = limits.raised("errors", len(ordered))
+        kept[-1] = replace(kept[-1], notes=(*kept[-1].notes, f"{more}: {way_out}"))
     return kept

@@ -6,8 +6,8 @@ import os
 import stat
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
+from nsode.limits import DEFAULT_LIMITS, Limits, either
 from nsode.source import Source, Span
-from nsode.syntax.limits import DEFAULT_LIMITS, Limits
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
@@ -53,14 +53,9 @@ def decode(name: str, content: bytes, limits: Limits = DEFAULT_LIMITS) -> Source
 def too_large(source: Source, limits: Limits) -> ModelError:
     """Return the error for a text beyond ``limits.size``."""
     message = f"the model is larger than {limits.size} bytes"
-    return ModelError(
-        [
-            Diagnostic(
-                "NS012", message, help="use a family (`state x[i in 1..n]`) instead of copies"
-            )
-        ],
-        source,
-    )
+    way_out = "use a family (`state x[i in 1..n]`) instead of copies"
+    help_ = either(way_out, limits.raised("size"))
+    return ModelError([Diagnostic("NS012", message, help=help_)], source)
 
 
 def _open_without_waiting(path: str, flags: int) -> int:

@@ -10,9 +10,9 @@ import re
 from dataclasses import dataclass, field
 
 from nsode.diagnostics import Diagnostic
+from nsode.limits import Limits
 from nsode.source import Source, Span
 from nsode.syntax import literals, slips
-from nsode.syntax.limits import Limits
 from nsode.syntax.tokens import Token, Vocabulary
 from nsode.syntax.words import FILE_KEYWORDS, STATEMENT_KEYWORDS
 
@@ -72,7 +72,7 @@ class _Scanner:
             case "malformed":
                 self._report(literals.malformed_number(piece))
             case "NAME":
-                self._report(slips.name_too_long(piece, self.limits.name))
+                self._report(slips.name_too_long(piece, self.limits))
             case "UNIT":
                 self._report(literals.malformed_unit(piece))
             case "string":
@@ -91,7 +91,7 @@ class _Scanner:
     def _count_signs(self, token: Token) -> None:
         self.signs = self.signs + 1 if token.text in ("-", "not") else 0
         if self.signs == self.limits.depth + 1:
-            self._report(slips.too_deep(token.span, self.limits.depth))
+            self._report(slips.too_deep(token.span, self.limits))
 
     # brackets
 
@@ -100,7 +100,7 @@ class _Scanner:
             case "(" | "[":
                 self.open.append(len(self.current.tokens))
                 if len(self.open) == self.limits.depth + 1:
-                    self._report(slips.too_deep(token.span, self.limits.depth))
+                    self._report(slips.too_deep(token.span, self.limits))
             case ")" | "]":
                 self._close(token)
             case "=" if self.open and self.open[-1] < self.line_start:

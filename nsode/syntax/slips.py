@@ -7,6 +7,7 @@ import unicodedata
 from collections.abc import Sequence
 
 from nsode.diagnostics import Diagnostic, Label
+from nsode.limits import Limits, either
 from nsode.source import Span
 from nsode.syntax.tokens import Token
 
@@ -115,12 +116,17 @@ def leading_underscore(piece: Token, limit: int) -> Diagnostic:
     )
 
 
-def name_too_long(name: Token, limit: int) -> Diagnostic | None:
+def name_too_long(name: Token, limits: Limits) -> Diagnostic | None:
     """Return the error for a name beyond the limit; None for any other name."""
-    if len(name.text) <= limit:
+    length = len(name.text)
+    if length <= limits.name:
         return None
-    message = f"the name {short(name.text)} has {len(name.text)} characters"
-    return Diagnostic("NS010", message, (Label(name.span, f"at most {limit} are allowed"),))
+    return Diagnostic(
+        "NS010",
+        f"the name {short(name.text)} has {length} characters",
+        (Label(name.span, f"at most {limits.name} are allowed"),),
+        help=either("shorten it", limits.raised("name", length)),
+    )
 
 
 # brackets and depth
@@ -149,11 +155,11 @@ def unclosed(opening: Token, why: str) -> Diagnostic:
     return Diagnostic("NS004", f"`{opening.text}` is never closed", (label,))
 
 
-def too_deep(span: Span, limit: int) -> Diagnostic:
+def too_deep(span: Span, limits: Limits) -> Diagnostic:
     """Return the error for brackets, signs or a tree beyond the limit."""
     return Diagnostic(
         "NS011",
-        f"nested deeper than {limit} levels",
+        f"nested deeper than {limits.depth} levels",
         (Label(span),),
-        help="name an intermediate result with `let`",
+        help=either("name an intermediate result with `let`", limits.raised("depth")),
     )

@@ -11,8 +11,8 @@ from importlib.resources import files
 import pytest
 
 from nsode.inclusion.symbols import CALLABLE
+from nsode.limits import DEFAULT_LIMITS
 from nsode.source import Source
-from nsode.syntax.limits import DEFAULT_LIMITS
 from nsode.syntax.parser import parser
 from nsode.syntax.scanner import scan
 from nsode.syntax.words import CONSTANT_NAMES, FUNCTION_NAMES, KEYWORDS

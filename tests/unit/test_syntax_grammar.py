@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from lark import Lark
 
+from nsode.limits import DEFAULT_LIMITS
 from nsode.source import Source
 from nsode.syntax.builder import Builder
-from nsode.syntax.limits import DEFAULT_LIMITS
 from nsode.syntax.parser import Parser, grammar, parser
 from nsode.syntax.scanner import scan
 from nsode.syntax.words import KEYWORDS, STATEMENT_KEYWORDS

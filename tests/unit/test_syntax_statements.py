@@ -9,8 +9,9 @@ import pytest
 
 from nsode.diagnostics import ModelError
 from nsode.expr import Call, Name, Number
+from nsode.limits import Limits
 from nsode.source import Source
-from nsode.syntax import Limits, ast, decode, parse, read
+from nsode.syntax import ast, decode, parse, read
 
 
 def statement(text: str) -> ast.Statement:
@@ -151,7 +152,8 @@ def test_a_flood_of_errors_is_cut() -> None:
         parse(Source("m.di", "model m\n" + "let = 1\n" * 50))
     shown = caught.value.diagnostics
     assert len(shown) == 20
-    assert shown[-1].notes == ("30 further errors are not shown",)
+    (note,) = shown[-1].notes
+    assert note == "30 further errors are not shown: raise the limit with `--limit errors=50`"
 
 
 @pytest.mark.parametrize(

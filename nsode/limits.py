@@ -1,0 +1,94 @@
+"""How large a model may be: what stands between an untrusted text and the machine.
+
+Every limit has a message of its own, which names the flag that raises it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+
+#: Later stages walk a tree by recursion, and compilers of C and Python bound how deep
+#: brackets nest: at this depth all of them still work, with room for the caller's own stack.
+DEEPEST = 128
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a model and its runs may take.
+
+    Attributes
+    ----------
+    size
+        Bytes or characters of the text (NS012).
+    name
+        Characters of a name (NS010).
+    depth
+        Levels of brackets, of signs and of the tree of an expression (NS011); at most
+        :data:`DEEPEST`.
+    operations
+        Operations in one expression after its vectors are written out (NS011).
+    exponent
+        The magnitude of a constant exponent (NS013).
+    elements
+        Elements of one family (NS014).
+    vector
+        Components of a vector, or rows or columns of a matrix (NS014).
+    errors
+        Errors that are reported in one run.
+
+    Raises
+    ------
+    ValueError
+        For a limit below 1, and for a depth beyond :data:`DEEPEST`.
+    """
+
+    size: int = 4 * 1024 * 1024
+    name: int = 64
+    depth: int = 64
+    operations: int = 50_000
+    exponent: int = 64
+    elements: int = 1_000_000
+    vector: int = 16
+    errors: int = 20
+
+    def __post_init__(self) -> None:
+        for name, value in asdict(self).items():
+            if value < 1:
+                raise ValueError(f"the limit `{name}` is at least 1, not {value}")
+        if self.depth > DEEPEST:
+            raise ValueError(f"the limit `depth` is at most {DEEPEST}, not {self.depth}")
+
+    @classmethod
+    def of(cls, values: Mapping[str, int]) -> Limits:
+        """Return the usual limits with some of them changed.
+
+        Raises
+        ------
+        ValueError
+            For a limit that there is not, or a value that it cannot have.
+        """
+        known = asdict(DEFAULT_LIMITS)
+        for name in values:
+            if name not in known:
+                raise ValueError(f"there is no limit `{name}`: choose from {', '.join(known)}")
+        return cls(**values)
+
+    def raised(self, name: str, wanted: int = 0) -> str | None:
+        """Return the way out of a limit: its flag, with what is wanted or with twice as much.
+
+        None where it cannot be raised further.
+        """
+        current: int = getattr(self, name)
+        value = wanted if wanted > current else 2 * current
+        if name == "depth":
+            value = min(value, DEEPEST)
+        return f"raise the limit with `--limit {name}={value}`" if value > current else None
+
+
+DEFAULT_LIMITS = Limits()
+
+
+def either(first: str, limit: str | None) -> str:
+    """Return two ways out, of which the second is to raise a limit where it can be."""
+    return first if limit is None else f"{first}, or {limit}"
