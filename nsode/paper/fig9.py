@@ -49,7 +49,7 @@ overall motion looks right, but the blocks never rest; at 0.5 ms they do:
 | 0.5 ms | {_unrest(quiet):.0e} m/s |
 
 The motion is sensitive: two correct solvers agree to 1e-6 until 0.7 s only. Where block 1
-comes to rest depends on the step; friction admits any |p1.y| below 49 mm (here
+comes to rest depends on the step; friction holds it anywhere from -39 mm to 65 mm (here
 {1e3 * quiet["p1.y"][-1]:.2f} mm)."""
     return Sheet(figure, text, {"1ms": papers, "0.5ms": stable})
 
