@@ -6,9 +6,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from nsode.diagnostics import refuse
-from nsode.evaluate import evaluate
-from nsode.expr import Call, Expr, Index, IndexRange, Name, Number, names
+from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
+from nsode.evaluate import apply, evaluate
+from nsode.expr import Call, Expr, Index, IndexRange, Name, Number, names, walk
 from nsode.inclusion.definitions import written_names
 from nsode.inclusion.elaborate import elaborate, number
 from nsode.inclusion.fitting import declared_shape, fitted
@@ -82,6 +82,7 @@ class Declarations:
         declarator = declaration.declarator
         name = declarator.name.text
         over = index_range(declarator.range, self.scope)
+        self._check_numbers(declaration.value, f"the value of `{name}`", over)
         value = self._elaborated(declaration.value, self.scope.with_index(over))
         value = fitted(value, over, self._sizes(declarator), declarator)
         unit = None if declaration.unit is None else declaration.unit.text
@@ -90,7 +91,7 @@ class Declarations:
         for suffix, part in zip(suffixes(of), scalars(value), strict=True):
             found = _elements(part, over, declaration.unit, f"the value of `{name}`")
             self.parameters.append(Parameter(name + suffix, found, over, unit, span=span))
-            self._bounds(name + suffix, over, declaration.bounds, declaration.unit)
+            self._bounds(self.parameters[-1], found, declaration.bounds, declaration.unit)
 
     def input(self, declaration: InputDeclaration) -> None:
         """``input fe = 0 {N}``."""
@@ -98,8 +99,11 @@ class Declarations:
         declared = self._sizes(declaration.declarator)
         default: Value | None = None
         if declaration.default is not None:
+            what = f"the default of `{declaration.declarator.name.text}`"
+            self._check_numbers(declaration.default, what, over)
             default = self._elaborated(declaration.default, self.scope.with_index(over))
             default = fitted(default, None, declared, declaration.declarator)
+            _check_one_default(default)
         of = declared if declared is not None else () if default is None else shape(default)
         name = declaration.declarator.name
         unit = None if declaration.unit is None else declaration.unit.text
@@ -110,7 +114,8 @@ class Declarations:
             if part is not None:
                 number = constant(in_si(part, declaration.unit), f"the default of `{name.text}`")
             self.inputs.append(Input(name.text + suffix, number, over, unit, span=name.span))
-            self._bounds(name.text + suffix, over, declaration.bounds, declaration.unit)
+            default_values = () if number is None else (number,)
+            self._bounds(self.inputs[-1], default_values, declaration.bounds, declaration.unit)
 
     def state(self, declaration: StateDeclaration) -> None:
         """``state p[3] = [0, 0, 2*R] {m}``; the shape now, the value with :meth:`initial`."""
@@ -135,6 +140,21 @@ class Declarations:
             converted = in_si(part, declaration.unit)
             self.states[k] = replace(self.states[k], initial=converted)
 
+    def _check_numbers(self, expr: Expr, what: str, over: IndexRange | None) -> None:
+        """Refuse a name that is declared and no constant: its value is not known yet."""
+        for name in written_names(expr):
+            known = self.symbols.known.get(name)
+            is_index = over is not None and name == over.variable
+            if is_index or name not in self.symbols.declared or (known and known.value is not None):
+                continue
+            raise refuse(
+                "NS111",
+                f"{what} must be made of numbers alone",
+                expr.span,
+                f"reads `{name}`",
+                help="write the number; what follows from other quantities is a `let`",
+            )
+
     def _elaborated(self, expr: Expr, scope: Scope) -> Value:
         value = each(number, elaborate(expr, scope))
         self.review.check(value)
@@ -146,20 +166,44 @@ class Declarations:
         return () if found is None and declarator.range is not None else found
 
     def _bounds(
-        self, name: str, over: IndexRange | None, bounds: Sequence[Bound], unit: Unit | None
+        self,
+        item: Parameter | Input,
+        values: Sequence[float],
+        bounds: Sequence[Bound],
+        unit: Unit | None,
     ) -> None:
+        """Keep the bounds of a declaration; its own values must respect them."""
         for bound in bounds:
             value = self._elaborated(bound.value, self.scope)
             if not isinstance(value, Expr):
                 raise refuse("NS105", "a bound is a scalar", bound.span)
             limit = Number(constant(in_si(value, unit), "a bound"), span=bound.span)
-            at = None
-            if over is not None:
-                at = Index(over.variable)
-            condition = Call(
-                bound.relation, (Name(name, at, span=bound.span), limit), span=bound.span
+            at = None if item.range is None else Index(item.range.variable)
+            held = Call(
+                bound.relation, (Name(item.name, at, span=bound.span), limit), span=bound.span
             )
-            self.checks.append(Check("bound", condition, over, "declared", span=bound.span))
+            broken = [v for v in values if not apply(bound.relation, v, limit.value)]
+            if broken:
+                raise _out_of_bounds(item, broken[0], bound)
+            self.checks.append(Check("bound", held, item.range, "declared", span=bound.span))
+
+
+def _check_one_default(default: Value) -> None:
+    for part in scalars(default):
+        if any(isinstance(node, Index) for node in walk(part)):
+            raise refuse(
+                "NS111",
+                "the elements of an input have one default",
+                part.span,
+                "this depends on the index",
+                help="give one number; what an input is in a run comes from data",
+            )
+
+
+def _out_of_bounds(item: Parameter | Input, value: float, bound: Bound) -> ModelError:
+    labels = (Label(bound.span, "the bound"), Label(item.span, f"is {value:g}"))
+    message = f"the value {value:g} of `{item.name}` breaks its own bound"
+    return ModelError([Diagnostic("NS307", message, labels, help="change the value or the bound")])
 
 
 def _elements(

@@ -6,11 +6,11 @@ import math
 from dataclasses import replace
 from functools import reduce
 
-from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
+from nsode.diagnostics import refuse
 from nsode.expr import FUNCTIONS, TIME, Call, Expr, If, Index, Name, Number, Sum, negate
 from nsode.inclusion import values
 from nsode.inclusion.indices import index, index_range
-from nsode.inclusion.symbols import CALLABLE, SET_VALUED, Scope, Symbol, known_functions
+from nsode.inclusion.symbols import CALLABLE, SET_VALUED, Scope, Symbol, unknown_function
 from nsode.inclusion.values import (
     Shape,
     ShapeError,
@@ -183,7 +183,7 @@ def _subscript(expr: Subscript, scope: Scope) -> Value:
     if at.variable is not None:
         raise refuse(
             "NS109",
-            "an index of a family cannot choose a component of a vector",
+            f"an index of a family cannot choose a component of {describe(shape(base))}",
             expr.index.span,
             help="declare a family: `state x[i in 1..3] = ...`",
         )
@@ -192,7 +192,7 @@ def _subscript(expr: Subscript, scope: Scope) -> Value:
 
 def _pick(base: Value, k: int, expr: Expr) -> Value:
     if isinstance(base, Expr):
-        raise refuse("NS105", "a scalar has no components", expr.span)
+        raise refuse("NS105", "a scalar has no components", expr.span, "this is a scalar")
     if not 1 <= k <= len(base):
         raise refuse(
             "NS109",
@@ -250,17 +250,7 @@ def _reduction(expr: Reduction, scope: Scope) -> Value:
 
 def _call(expr: Call, scope: Scope) -> Value:
     if expr.function not in FUNCTIONS and expr.function not in CALLABLE:
-        raise ModelError(
-            [
-                Diagnostic(
-                    "NS104",
-                    f"there is no function `{expr.function}`",
-                    (Label(expr.span, "unknown function"),),
-                    notes=("the functions are " + ", ".join(known_functions()),),
-                    help=suggest(expr.function, CALLABLE),
-                )
-            ]
-        )
+        raise unknown_function(expr)
     if expr.function == "der":
         return scope.derivative(expr, scope)
     if expr.function in SET_VALUED:

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Literal, NamedTuple
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
-from nsode.expr import Call, Expr, If, Name, Number
+from nsode.expr import FUNCTIONS, Call, Expr, If, Name, Number
+from nsode.inclusion.symbols import CALLABLE, unknown_function
 from nsode.source import Span
 from nsode.syntax.ast import (
     Bracket,
@@ -81,6 +82,9 @@ class Hoister:
         self._outermost = []
         rest = self._visit(expr)
         if not self._outermost:
+            for call in _calls(expr):
+                if call.function not in CALLABLE and call.function not in FUNCTIONS:
+                    raise unknown_function(call)
             raise refuse(
                 "NS205",
                 f"the force `{name.text}` holds no set-valued term",
@@ -270,10 +274,14 @@ def _sgn(expr: Expr) -> tuple[Call, list[Component | Subscript], int] | None:
 
 
 def _strip(item: _Item) -> tuple[_Item, int]:
-    match item.operand:
-        case Call("neg", (inner,)) | Group(Call("neg", (inner,))):
-            return _Item(item.operator, inner), -1
-    return item, 1
+    """Return a factor without the signs in front of it, and what they amount to."""
+    operand, sign = item.operand, 1
+    while True:
+        match operand:
+            case Call("neg", (inner,)) | Group(Call("neg", (inner,))):
+                operand, sign = inner, -sign
+            case _:
+                return _Item(item.operator, operand), sign
 
 
 def _sign(stripped: list[tuple[_Item, int]]) -> int:
@@ -281,6 +289,18 @@ def _sign(stripped: list[tuple[_Item, int]]) -> int:
     for _, one in stripped:
         sign *= one
     return sign
+
+
+def _calls(expr: Expr) -> Iterator[Call]:
+    stack: list[object] = [expr]
+    while stack:
+        node = stack.pop()
+        if isinstance(node, tuple):
+            stack.extend(node)
+        elif isinstance(node, Expr):
+            if isinstance(node, Call):
+                yield node
+            stack.extend(getattr(node, item.name) for item in fields(node))
 
 
 def _bare(expr: Expr) -> Expr:

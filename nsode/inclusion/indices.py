@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from nsode.diagnostics import refuse, suggest
+from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
 from nsode.expr import Call, Expr, Index, IndexRange, Name, Number
 from nsode.inclusion.symbols import Scope, check_free
 from nsode.limits import Limits, either
 from nsode.source import Span
 from nsode.syntax.ast import Group, RangeSyntax
+
+#: Whole numbers beyond this are not exact as doubles.
+INTEGER_LIMIT = 2**53
+_OTHER_INDEX = "name the index differently, for example `k`"
 
 
 def index(expr: Expr, scope: Scope) -> Index:
@@ -19,7 +23,7 @@ def index(expr: Expr, scope: Scope) -> Index:
         NS109 for anything else.
     """
     found = _affine(expr, scope)
-    if found is None:
+    if found is None or abs(found[1]) > INTEGER_LIMIT:
         raise refuse(
             "NS109",
             "a subscript is an index, a whole number, or `index + number`",
@@ -42,12 +46,23 @@ def integer(expr: Expr, scope: Scope, what: str) -> int:
     if found is None or found[0] is not None:
         raise refuse(
             "NS111",
-            f"{what} must be a whole number",
+            f"{what} must be a whole number that is known when the model is compiled",
             expr.span,
-            "known when the model is compiled",
+            _why_not(expr, scope),
             help="use whole numbers and names declared as `constant n = 10`",
         )
+    if abs(found[1]) > INTEGER_LIMIT:
+        raise refuse("NS111", f"{what} is too large for a whole number", expr.span, "beyond 2^53")
     return found[1]
+
+
+def _why_not(expr: Expr, scope: Scope) -> str:
+    match expr:
+        case Name(id) if id in scope.indices:
+            return "this is an index"
+        case Name(id):
+            return f"`{id}` is a {scope.symbols.find(id, expr.span).kind}"
+    return ""
 
 
 def index_range(syntax: RangeSyntax | None, scope: Scope) -> IndexRange | None:
@@ -62,13 +77,14 @@ def index_range(syntax: RangeSyntax | None, scope: Scope) -> IndexRange | None:
         return None
     variable = syntax.variable
     check_free(variable.text, variable.span)
-    if variable.text in scope.symbols.declared or variable.text in scope.indices:
-        raise refuse(
-            "NS102",
-            f"the index `{variable.text}` has the name of something else",
-            variable.span,
-            help="name the index differently",
-        )
+    if variable.text in scope.indices:
+        message = f"the index `{variable.text}` stands inside another of that name"
+        raise refuse("NS102", message, variable.span, "names an index again", help=_OTHER_INDEX)
+    if variable.text in scope.symbols.declared:
+        message = f"the index `{variable.text}` has the name of something else"
+        taken = scope.symbols.declared[variable.text]
+        labels = (Label(variable.span, "an index here"), Label(taken, "declared here"))
+        raise ModelError([Diagnostic("NS102", message, labels, help=_OTHER_INDEX)])
     first = integer(syntax.first, scope, "the start of a range")
     last = integer(syntax.last, scope, "the end of a range")
     found = IndexRange(variable.text, first, last)
@@ -112,7 +128,8 @@ def _named(id: str, span: Span, scope: Scope) -> tuple[str | None, int] | None:
         return id, 0
     if id not in scope.symbols.declared:
         near = suggest(id, [*scope.indices, *scope.symbols.declared])
-        raise refuse("NS101", f"`{id}` is not defined", span, "nothing has this name", help=near)
+        way_out = near or f"an index is named by `for {id} in 1..n:` or `sum({id} in 1..n: ...)`"
+        raise refuse("NS101", f"`{id}` is not defined", span, "nothing has this name", help=way_out)
     symbol = scope.symbols.find(id, span)
     match symbol.value:
         case Number(value):

@@ -6,12 +6,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from nsode.diagnostics import Diagnostic, Label, ModelError
-from nsode.source import Source, Span
+from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
+from nsode.source import NOWHERE, Source, Span
 
 
 class PoisonedError(Exception):
     """Something reads a name whose own declaration was refused; said once is enough."""
+
+    def __init__(self, name: str = "", span: Span = NOWHERE) -> None:
+        self.name, self.span = name, span
+        super().__init__(name)
 
 
 @dataclass(slots=True)
@@ -20,6 +24,7 @@ class Report:
 
     source: Source
     found: list[Diagnostic] = field(default_factory=list)
+    skipped: list[PoisonedError] = field(default_factory=list)
 
     def add(self, diagnostic: Diagnostic) -> None:
         """Keep one diagnostic."""
@@ -32,8 +37,8 @@ class Report:
             yield
         except ModelError as error:
             self.found.extend(error.diagnostics)
-        except PoisonedError:
-            pass
+        except PoisonedError as error:
+            self.skipped.append(error)
 
     def ordered(self) -> list[Diagnostic]:
         """Return the diagnostics by place, each once."""
@@ -50,6 +55,9 @@ class Report:
         """
         if any(d.severity == "error" for d in self.found):
             raise ModelError(self.ordered(), self.source)
+        for error in self.skipped:  # nothing may be left out in silence
+            message = f"`{error.name}` is read before its value is known"
+            raise refuse("NS101", message, error.span, "read here")
 
 
 #: Members of a circle that a message shows.

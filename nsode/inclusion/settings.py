@@ -9,6 +9,7 @@ from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
 from nsode.evaluate import evaluate
 from nsode.expr import Expr, Number, names
 from nsode.inclusion.elaborate import scalar
+from nsode.inclusion.report import PoisonedError
 from nsode.inclusion.symbols import Scope
 from nsode.inclusion.units import in_si
 from nsode.ode import Approximation, Run, SetValuedTerm
@@ -32,7 +33,7 @@ class Approximations:
 
     elements: Mapping[str, SetValuedTerm]
     scope: Scope
-    _own: dict[str, tuple[Approximation, Span]] = field(default_factory=dict)
+    _own: dict[str, tuple[Approximation, Identifier]] = field(default_factory=dict)
     _defaults: dict[str, tuple[Approximation, Span]] = field(default_factory=dict)
 
     def add(self, statement: ApproximateStatement) -> None:
@@ -45,36 +46,34 @@ class Approximations:
         """
         approximation = self._approximation(statement)
         if statement.default is not None:
-            self._store(self._defaults, statement.default, approximation, statement.span)
+            known = self._defaults.setdefault(statement.default, (approximation, statement.span))
+            if known[0] is not approximation:
+                message = f"the default of `{statement.default}` is given twice"
+                raise _twice(message, statement.span, known[1])
         for name in statement.elements:
-            self._store(self._own, self._element(name).name, approximation, name.span)
+            self._store(self._element(name).name, approximation, name)
 
     def of(self, term: SetValuedTerm) -> Approximation:
         """Return the approximation of an element: its own, its kind's, or the default."""
-        for known, key in ((self._own, term.name), (self._defaults, term.kind)):
-            if key in known:
-                return known[key][0]
-        return Approximation()
+        if term.name in self._own:
+            return self._own[term.name][0]
+        return self._defaults[term.kind][0] if term.kind in self._defaults else Approximation()
 
-    def _store(
-        self, into: dict[str, tuple[Approximation, Span]], key: str, new: Approximation, span: Span
-    ) -> None:
-        if key in into:
-            raise ModelError(
-                [
-                    Diagnostic(
-                        "NS305",
-                        f"`{key}` is approximated twice",
-                        (Label(span, "again here"), Label(into[key][1], "first here")),
-                        help="one element has one set of constants: remove one of the two",
-                    )
-                ]
-            )
-        into[key] = new, span
+    def _store(self, key: str, new: Approximation, name: Identifier) -> None:
+        known, first = self._own.setdefault(key, (new, name))
+        if known is new and (first is name or first.text != name.text):
+            return
+        message = f"`{name.text}` is approximated twice"
+        if first.text != name.text:
+            message = f"`{name.text}` and `{first.text}` are one element, approximated twice"
+        raise _twice(message, name.span, first.span)
 
     def _element(self, name: Identifier) -> SetValuedTerm:
         if name.text in self.elements:
             return self.elements[name.text]
+        symbols = self.scope.symbols
+        if name.text in symbols.declared and name.text not in symbols.known:
+            raise PoisonedError
         elements = ", ".join(f"`{known}`" for known in self.elements) or "none"
         raise ModelError(
             [
@@ -104,6 +103,12 @@ class Approximations:
             statement.at_equilibrium,
             span=statement.span,
         )
+
+
+def _twice(message: str, span: Span, first: Span) -> ModelError:
+    labels = (Label(span, "again here"), Label(first, "first here"))
+    way_out = "one element has one set of constants: remove one of the two"
+    return ModelError([Diagnostic("NS305", message, labels, help=way_out)])
 
 
 def _check_new(setting: Setting, seen: dict[str, Setting]) -> None:
@@ -180,7 +185,7 @@ def constant(value: Expr, what: str) -> float:
             f"{what} must be made of numbers alone",
             name.span,
             "this is a name",
-            help="write the number, or use `let` for a derived quantity",
+            help="write the number",
         )
     if isinstance(value, Number):
         return value.value

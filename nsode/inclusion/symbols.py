@@ -101,7 +101,7 @@ class Symbols:
             self.used.add(name)
             return symbol
         if name in self.declared:
-            raise PoisonedError
+            raise PoisonedError(name, span)
         near = suggest(name, [*self.declared, *also])
         raise ModelError(
             [
@@ -181,6 +181,16 @@ class Scope:
         return replace(self, indices={**self.indices, range.variable: range})
 
 
-def known_functions() -> list[str]:
-    """Return the names of all functions of the language."""
-    return sorted(CALLABLE)
+def unknown_function(call: Call) -> ModelError:
+    """Return the error for a function that there is not."""
+    return ModelError(
+        [
+            Diagnostic(
+                "NS104",
+                f"there is no function `{call.function}`",
+                (Label(call.span, "unknown function"),),
+                notes=("the functions are " + ", ".join(sorted(CALLABLE)),),
+                help=suggest(call.function, CALLABLE),
+            )
+        ]
+    )

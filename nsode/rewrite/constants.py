@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
 from nsode.evaluate import evaluate
@@ -37,6 +38,7 @@ def constants(inclusion: DifferentialInclusion) -> tuple[Parameter, ...]:
     unknown = {} if problems else dict.fromkeys(_unknown(inclusion, formulas))
     if unknown:
         raise ModelError(unknown, inclusion.source)
+    formulas = _in_parameters(formulas, fixed)
     single = {p.name: p.values[0] for p in inclusion.parameters if len(p.values) == 1}
     values = _values(formulas, single)
     found = [
@@ -152,6 +154,30 @@ def _check_law(term: SetValuedTerm) -> None:
     )
 
 
+def _in_parameters(formulas: Mapping[str, Expr | None], fixed: Fixed) -> dict[str, Expr | None]:
+    """Return formulas that read parameters and other constants, seen through lets.
+
+    Raises
+    ------
+    ModelError
+        NS111 for one that changes in a run.
+    """
+    known = replace(fixed, parameters=fixed.parameters | formulas.keys())
+    found: dict[str, Expr | None] = {}
+    for name, formula in formulas.items():
+        found[name] = known.formula(formula)
+        if formula is not None and found[name] is None:
+            moving = (read for read in names(formula) if known.formula(read) is None)
+            raise refuse(
+                "NS111",
+                f"the constant `{name}` must rest on parameters alone",
+                next(moving, formula).span,
+                "this is not made of parameters",
+                help="use numbers, parameters, other constants, and short `let` of these",
+            )
+    return found
+
+
 def _values(
     formulas: Mapping[str, Expr | None], parameters: Mapping[str, float]
 ) -> Mapping[str, float]:
@@ -164,6 +190,15 @@ def _values(
     found = dict.fromkeys(formulas, math.nan) | dict(parameters)
     for name in ordered:
         found[name] = evaluate(given[name], lambda other, at: found[other])
+        known = not any(math.isnan(found[other.id]) for other in names(given[name]))
+        if math.isinf(found[name]) or (math.isnan(found[name]) and known):
+            raise refuse(
+                "NS116",
+                f"the constant `{name}` is {found[name]}",
+                given[name].span,
+                "undefined",
+                help="check the numbers that go into it",
+            )
     return found
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import islice
 
-from nsode.expr import Call, Expr, Name, Number, rebuild, walk
+from nsode.expr import Call, Expr, If, Name, Number, rebuild, walk
 from nsode.ode import Binding, DifferentialInclusion
 
 #: Names seen through, and nodes of a formula, beyond which it counts as moving.
@@ -41,7 +41,7 @@ class Fixed:
 
     def _is_made_of_parameters(self, expr: Expr) -> bool:
         return all(
-            isinstance(node, Number | Call)
+            isinstance(node, Number | Call | If)
             or (isinstance(node, Name) and node.at is None and node.id in self.parameters)
             for node in walk(expr)
         )
