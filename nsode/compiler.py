@@ -40,12 +40,13 @@ class Model:
     """A compiled model.
 
     ``inclusion`` is the differential inclusion in normal form, ``ode`` its augmented
-    ODE, ``diagnostics`` the warnings and notes that it drew.
+    ODE, ``diagnostics`` the warnings and notes that it drew, ``limits`` what it may take.
     """
 
     inclusion: DifferentialInclusion
     ode: AugmentedODE
     diagnostics: tuple[Diagnostic, ...]
+    limits: Limits = DEFAULT_LIMITS
 
     @property
     def name(self) -> str:
@@ -130,7 +131,7 @@ class Model:
             inclusion = with_laws(self.inclusion, self.ode.parameters, chosen)
             ode = rewrite(inclusion)
             lasting = (d for d in self.diagnostics if d not in earlier)
-            return Model(inclusion, ode, (*lasting, *_remarks(inclusion, ode)))
+            return Model(inclusion, ode, (*lasting, *_remarks(inclusion, ode)), self.limits)
         except ModelError as error:
             raise ModelError(error.diagnostics, self.source) from None
 
@@ -234,7 +235,9 @@ class Model:
         """
         from nsode.analysis import analyze
 
-        return analyze(self.inclusion, self.ode, along=along, impact_speed=impact_speed)
+        return analyze(
+            self.inclusion, self.ode, along=along, impact_speed=impact_speed, limits=self.limits
+        )
 
     def explain(self) -> Explanation:
         """Return how the inclusion becomes the ODE, step by step; a notebook shows it typeset."""
@@ -309,7 +312,7 @@ class Model:
             overrides=parameters,
             signals=inputs,
             start=x0,
-            manner=Manner(strict=strict, guard=guard),
+            manner=Manner(strict=strict, guard=guard, limits=self.limits),
         )
 
 
@@ -348,7 +351,7 @@ def compile_source(source: Source, limits: Limits = DEFAULT_LIMITS) -> Model:
         try:
             inclusion, diagnostics = build(parse(source, limits), limits)
             ode = rewrite(inclusion)
-            return Model(inclusion, ode, (*diagnostics, *_remarks(inclusion, ode)))
+            return Model(inclusion, ode, (*diagnostics, *_remarks(inclusion, ode)), limits)
         except ModelError as error:
             raise ModelError(error.diagnostics, source) from None
 

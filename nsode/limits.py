@@ -34,6 +34,10 @@ class Limits:
         Elements of one family (NS014).
     vector
         Components of a vector, or rows or columns of a matrix (NS014).
+    analysis
+        States and multipliers of a model that is analyzed (NS014).
+    steps, memory
+        Steps of a run, and bytes that it stores (NS502).
     errors
         Errors that are reported in one run.
 
@@ -50,6 +54,9 @@ class Limits:
     exponent: int = 64
     elements: int = 1_000_000
     vector: int = 16
+    analysis: int = 400
+    steps: int = 10**9
+    memory: int = 2 * 2**30
     errors: int = 20
 
     def __post_init__(self) -> None:

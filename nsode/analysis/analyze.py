@@ -19,12 +19,11 @@ from nsode.analysis.stability import bound, half_disc
 from nsode.analysis.steps import Reachable, StableStep, reachable, stable_steps
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.integrators import REGISTRY, Scheme
+from nsode.limits import DEFAULT_LIMITS, Limits, either
 from nsode.ode import AugmentedODE, DifferentialInclusion, size
 
 #: States and multipliers beyond which a step is not checked on every compile.
 LARGE = 300
-#: States and multipliers beyond which the matrices of an analysis take minutes.
-LARGEST = 400
 #: Active sets beyond which a compile searches among them instead.
 FEW_SETS = 256
 
@@ -39,6 +38,7 @@ def analyze(
     along: Iterable[Sequence[float]] = (),
     impact_speed: float | None = None,
     schemes: Mapping[str, Scheme] | None = None,
+    limits: Limits = DEFAULT_LIMITS,
 ) -> Analysis:
     """Return what is known of a model before it runs.
 
@@ -53,14 +53,16 @@ def analyze(
         In m/s; None takes the first impact from the start.
     schemes : mapping of str to Scheme, optional
         The methods; None takes all.
+    limits : Limits, optional
+        How large a model may be: beyond the usual, matrices take minutes.
 
     Raises
     ------
     ModelError
-        NS014 where there are more than :data:`LARGEST` states and multipliers, NS406
-        where the start has no finite rates and derivatives.
+        NS014 where there are too many states and multipliers, NS406 where the start has
+        no finite rates and derivatives.
     """
-    _refuse_large(inclusion)
+    _refuse_large(inclusion, limits)
     scene = Scene(inclusion, [p for p in ode.parameters if p.constant_of is not None])
     begin = _at_start(scene)
     if begin is None:
@@ -126,12 +128,13 @@ def _places(inclusion: DifferentialInclusion) -> int:
     return own + sum(size(term) * len(term.multiplier) for term in inclusion.terms)
 
 
-def _refuse_large(inclusion: DifferentialInclusion) -> None:
+def _refuse_large(inclusion: DifferentialInclusion, limits: Limits) -> None:
     places = _places(inclusion)
-    if places > LARGEST:
+    if places > limits.analysis:
         message = f"{places:,} states and multipliers are too many to analyze"
-        way_out = f"analyze the same scene with fewer elements: at most {LARGEST:,} in all"
-        raise ModelError([Diagnostic("NS014", message, help=way_out)], inclusion.source)
+        way_out = f"analyze the same scene with fewer elements: at most {limits.analysis:,} in all"
+        help_ = either(way_out, limits.raised("analysis", places))
+        raise ModelError([Diagnostic("NS014", message, help=help_)], inclusion.source)
 
 
 def _at_start(scene: Scene) -> tuple[Local, EffectiveMass, list[float]] | None:

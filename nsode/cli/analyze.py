@@ -28,10 +28,8 @@ def command(model: str, style: str, impact_speed: float | None, limits: Limits) 
     Effective mass, the largest stable step of each method and what limits it, restitution,
     penetration and presliding, and what the scene could do without.
     """
-    from nsode.analysis import analyze
-
     loaded = load(model, limits)
-    found = analyze(loaded.inclusion, loaded.ode, impact_speed=impact_speed)
+    found = loaded.analyze(impact_speed=impact_speed)
     said = {(d.code, d.message) for d in loaded.diagnostics}
     fresh = [d for d in found.diagnostics if (d.code, d.message) not in said]
     complain([*loaded.diagnostics, *fresh], loaded.source)

@@ -94,7 +94,7 @@ def command(
     def tell(diagnostic: Diagnostic) -> None:
         complain([diagnostic], loaded.source)
 
-    manner = Manner(strict, not no_guard, tell, _Bar() if sys.stderr.isatty() else None)
+    manner = Manner(strict, not no_guard, tell, _Bar() if sys.stderr.isatty() else None, limits)
     try:
         trajectory = _run(loaded, wish, parameters, inputs, manner)
         status = _INTERRUPTED if trajectory.meta["run"]["interrupted"] else 0

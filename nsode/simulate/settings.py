@@ -12,11 +12,8 @@ from numpy.typing import NDArray
 from nsode.diagnostics import Diagnostic, Label, ModelError, suggest
 from nsode.integrators import REGISTRY
 from nsode.integrators.pairs import PAIRS
+from nsode.limits import DEFAULT_LIMITS, Limits, either
 from nsode.ode import Run
-
-#: What a run may ask for.
-MOST_STEPS = 10**9
-MOST_BYTES = 2 * 2**30
 
 #: Integrators of other libraries by name, with the library.
 SOLVERS = {
@@ -75,7 +72,9 @@ class Settings:
         return -(-self.steps // self.every) + 1
 
 
-def settle(wish: Wish, run: Run, columns: int) -> tuple[Settings, list[Diagnostic]]:
+def settle(
+    wish: Wish, run: Run, columns: int, limits: Limits = DEFAULT_LIMITS
+) -> tuple[Settings, list[Diagnostic]]:
     """Return the settings of a run and what is to be said about them.
 
     Parameters
@@ -86,6 +85,8 @@ def settle(wish: Wish, run: Run, columns: int) -> tuple[Settings, list[Diagnosti
         What the model says where nothing was asked for.
     columns
         The numbers in a row, for the limit on memory.
+    limits
+        How many steps and how much memory a run may take.
 
     Raises
     ------
@@ -117,7 +118,7 @@ def settle(wish: Wish, run: Run, columns: int) -> tuple[Settings, list[Diagnosti
     steps = round(duration / step)
     every, remarks = _every(wish, run, step)
     settings = Settings(wish.start, step, steps, every, method, tolerance)
-    problems = [*_too_short(duration, step, steps), *_too_large(settings, columns)]
+    problems = [*_too_short(duration, step, steps), *_too_large(settings, columns, limits)]
     if problems:
         raise ModelError(problems)
     if abs(duration / step - steps) > 1e-9 * steps and duration != run.duration:
@@ -194,27 +195,33 @@ def _too_short(duration: float, step: float, steps: int) -> list[Diagnostic]:
     return [Diagnostic("NS501", message)]
 
 
-def _too_large(settings: Settings, columns: int) -> list[Diagnostic]:
+def _too_large(settings: Settings, columns: int, limits: Limits) -> list[Diagnostic]:
     problems = []
     size = 8.0 * settings.rows * columns
-    if settings.steps > MOST_STEPS:
+    if settings.steps > limits.steps:
         took = _span(settings.steps * _SECONDS_A_STEP)
         problems.append(
             Diagnostic(
                 "NS502",
-                f"{settings.steps:.3g} steps are more than a run takes ({MOST_STEPS:.0e})",
+                f"{settings.steps:.3g} steps are more than a run takes ({limits.steps:.0e})",
                 notes=(f"at 0.1 us a step they would take {took} and store {_bytes(size)}",),
-                help="choose a shorter duration or a larger step",
+                help=either(
+                    "choose a shorter duration, a larger step",
+                    limits.raised("steps", settings.steps),
+                ),
             )
         )
-    if size > MOST_BYTES:
-        every = settings.every * math.ceil(size / MOST_BYTES)
+    if size > limits.memory:
+        every = settings.every * math.ceil(size / limits.memory)
         problems.append(
             Diagnostic(
                 "NS502",
                 f"{settings.rows:.3g} rows of {columns} numbers are {_bytes(size)}",
-                notes=(f"a run stores up to {_bytes(MOST_BYTES)}",),
-                help=f"store fewer rows: `--every {every}`",
+                notes=(f"a run stores up to {_bytes(limits.memory)}",),
+                help=either(
+                    f"store fewer rows: `--every {every}`",
+                    limits.raised("memory", math.ceil(size)),
+                ),
             )
         )
     return problems

@@ -13,6 +13,7 @@ import numpy as np
 from nsode import __version__
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.integrators import REGISTRY
+from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.ode import AugmentedODE, DifferentialInclusion, Output, State, element_names, size
 from nsode.simulate import failure, parameters, solvers
 from nsode.simulate.foresee import foreseen
@@ -52,12 +53,15 @@ class Manner:
         Takes warnings and notes; Python warnings unless given.
     progress
         Takes the steps taken and that of all, some twenty times a second.
+    limits
+        How many steps and how much memory a run may take.
     """
 
     strict: bool = False
     guard: bool = True
     tell: Callable[[Diagnostic], None] = _warn
     progress: Progress | None = None
+    limits: Limits = DEFAULT_LIMITS
 
 
 _MODELS_OWN = Wish()
@@ -104,7 +108,7 @@ def simulate(
         If the run goes wrong; it holds the rows before that.
     """
     p = parameters.parameters(ode, overrides or {})
-    settings, remarks = settle(wish, ode.run, _columns(ode))
+    settings, remarks = settle(wish, ode.run, _columns(ode), manner.limits)
     given = inputs(ode, signals or {}, settings)
     known = foreseen(inclusion, ode, settings, p)
     made = scene(inclusion, ode, settings.method, watched=manner.guard and bool(known))
