@@ -184,7 +184,6 @@ def _read(derived: Expr | None, at: Index | None) -> Expr | None:
             return derived
 
 
-
 def merged_rates(rates: Iterable[Rate]) -> dict[str, Binding]:
     """Return one value for each state: pieces of a family under an ``if`` on the index."""
     pieces: dict[str, list[Rate]] = {}

@@ -15,18 +15,31 @@ _SMALL = 3  # nodes of an argument that is not worth a name
 _LINEAR = frozenset({"+", "neg"})
 
 
-def with_parts(expr: Expr, named: Callable[[Expr], Name]) -> Expr:
-    """Return ``expr`` with its larger arguments replaced by what ``named`` calls them."""
+def with_parts(expr: Expr, named: Callable[[Expr], Name], varies: Callable[[Expr], bool]) -> Expr:
+    """Return ``expr`` with its larger arguments replaced by what ``named`` calls them.
+
+    A factor beside a constant needs no name, since no slope reads it; ``varies`` tells
+    what is no constant.
+    """
     match expr:
-        case Call(function):
-            inner = rebuild(expr, lambda child: with_parts(child, named))
-            if function in _LINEAR:
+        case Call(function, args):
+            inner = rebuild(expr, lambda child: with_parts(child, named, varies))
+            if function in _LINEAR or _is_scaled(function, args, varies):
                 return inner
             return rebuild(inner, lambda child: child if _is_small(child) else named(child))
         case Number() | Index() | Name() | If() | Sum():
             return expr
         case _:
             raise NotImplementedError(f"no parts of {type(expr).__name__}")
+
+
+def _is_scaled(function: str, args: tuple[Expr, ...], varies: Callable[[Expr], bool]) -> bool:
+    match function:
+        case "*":
+            return not all(varies(arg) for arg in args)
+        case "/":
+            return not varies(args[1])
+    return False
 
 
 def _is_small(expr: Expr) -> bool:

@@ -28,7 +28,7 @@ from nsode.derivative.rules import (
     summed,
     times,
 )
-from nsode.expr import Expr, Index, IndexRange, Name, Number, add, multiply, negate
+from nsode.expr import Expr, Index, IndexRange, Name, Number, add, multiply, names, negate
 from nsode.ode import (
     AugmentedODE,
     Binding,
@@ -158,7 +158,14 @@ class _Chain:
             self._define(label, part, span)
             return _own(label, span)
 
-        return with_parts(value, named)
+        return with_parts(value, named, self._varies)
+
+    def _varies(self, expr: Expr) -> bool:
+        """Tell whether an expression depends on a column, or may through a sum."""
+        return any(
+            name.id in self.columns or self.known.get(name.id) or name.id in self.spreads
+            for name in names(expr)
+        )
 
     def _derive(
         self, value: Expr, span: IndexRange | None
@@ -193,7 +200,7 @@ class _Chain:
     def _named(self, name: str, key: Name, terms: list[Expr], span: IndexRange | None) -> Expr:
         """Return a derivative under a name of its own, unless it is a plain number."""
         value = add(*terms)
-        if isinstance(value, Number):
+        if isinstance(value, Number) or (isinstance(value, Name) and value.at is None):
             return value
         label = derivative_name(name, key)
         self.emitted.append(Binding(label, value, span, role="part", span=value.span))
