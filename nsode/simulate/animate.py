@@ -112,7 +112,7 @@ class Animation:
         left, right, bottom, top = self.limits
         height = _WIDTH * min(2.0, max(0.25, (top - bottom) / (right - left)))
         with mpl.rc_context(STYLE):
-            figure = Figure(figsize=(_WIDTH, height + 0.5), dpi=_DPI)
+            figure = Figure(figsize=(_WIDTH, height + 0.5), dpi=_DPI, layout="constrained")
             canvas: Any = FigureCanvasAgg(figure)  # its methods have no types
             axis = figure.add_subplot()
             for row in range(len(self.rows)):
@@ -122,6 +122,7 @@ class Animation:
                 self.draw(axis, moment)
                 axis.set_title(f"{moment.t:.2f} s", fontsize="medium", loc="left")
                 canvas.draw()
+                figure.set_layout_engine("none")  # as the first picture is laid out, so are all
                 yield Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB")
 
     def _gif(self) -> bytes:

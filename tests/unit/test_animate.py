@@ -24,13 +24,13 @@ def dropped():
 
 def dot(axis, now):
     axis.set_axis_off()
-    axis.plot(0, now["p"], "ko", ms=8)
+    axis.plot(0, now["p"], "o", color="red", ms=8)
 
 
 def heights(pictures):
-    """Return the mean row of what is dark below the title, from the top, in pixels."""
-    dark = [np.array(picture.convert("L"))[60:] < 100 for picture in pictures]
-    return np.array([np.nonzero(one)[0].mean() for one in dark])
+    """Return the mean row of what is red, from the top, in pixels."""
+    red = [(np.array(one) @ [1, -1, 0]) > 100 for one in pictures]
+    return np.array([np.nonzero(one)[0].mean() for one in red])
 
 
 def test_what_is_drawn_falls_as_the_law_of_gravity_says(dropped):
