@@ -24,7 +24,7 @@ from nsode.inclusion.rows import Rows
 from nsode.inclusion.settings import Approximations, run
 from nsode.inclusion.sharing import Numbering
 from nsode.inclusion.solving import solve
-from nsode.inclusion.start import moving_starts
+from nsode.inclusion.start import broken_assumptions, moving_starts
 from nsode.inclusion.symbols import Scope, Symbols
 from nsode.inclusion.units import check_units, in_si
 from nsode.inclusion.values import each, scalars, shape, suffixes
@@ -101,20 +101,12 @@ class _Course:
 
     def declare(self) -> None:
         """Take every name, then the items that need no other names than constants."""
+        accepted: list[ast.Statement] = []
         for statement in self.model.statements:
             with self.report.collecting():
-                match statement:
-                    case ast.ConstantDeclaration(name):
-                        self.symbols.declare(name.text, name.span)
-                    case (
-                        ast.ParameterDeclaration(declarator)
-                        | ast.InputDeclaration(declarator)
-                        | ast.StateDeclaration(declarator)
-                        | ast.LetDeclaration(declarator)
-                        | ast.ForceDeclaration(declarator)
-                        | ast.OutputDeclaration(declarator)
-                    ):
-                        self.symbols.declare(declarator.name.text, declarator.name.span)
+                self._take_name(statement)
+                accepted.append(statement)
+        self.model = replace(self.model, statements=tuple(accepted))
         constants = [s for s in self.model.statements if isinstance(s, ast.ConstantDeclaration)]
         self.declared.constants(constants, self.report)
         for statement in self.model.statements:
@@ -126,6 +118,20 @@ class _Course:
                         self.declared.input(statement)
                     case ast.StateDeclaration():
                         self.declared.state(statement)
+
+    def _take_name(self, statement: ast.Statement) -> None:
+        match statement:
+            case ast.ConstantDeclaration(name):
+                self.symbols.declare(name.text, name.span)
+            case (
+                ast.ParameterDeclaration(declarator)
+                | ast.InputDeclaration(declarator)
+                | ast.StateDeclaration(declarator)
+                | ast.LetDeclaration(declarator)
+                | ast.ForceDeclaration(declarator)
+                | ast.OutputDeclaration(declarator)
+            ):
+                self.symbols.declare(declarator.name.text, declarator.name.span)
 
     def define(self) -> None:
         """Lets, forces and inline terms; then which terms are one element."""
@@ -239,6 +245,7 @@ class _Course:
         """Check subscripts, the hypotheses of the method, and the sign of each factor."""
         self._check_subscripts(inclusion)
         self.report.found.extend(moving_starts(inclusion, self.symbols))
+        self.report.found.extend(broken_assumptions(self.checks, inclusion))
         self.report.raise_errors()
         hypotheses = Hypotheses(base_reads(state.name for state in inclusion.states))
         prover = prover_of(inclusion, self.checks)
@@ -277,6 +284,9 @@ class _Course:
         for state in inclusion.states:
             with self.report.collecting():
                 bounds.check([state.initial], state.range)
+        for check in self.checks:
+            with self.report.collecting():
+                bounds.check([check.condition], check.range)
 
     def remark(self, inclusion: DifferentialInclusion) -> None:
         """Say what is no error and yet worth saying."""

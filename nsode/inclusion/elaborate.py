@@ -10,7 +10,7 @@ from nsode.diagnostics import refuse
 from nsode.expr import FUNCTIONS, TIME, Call, Expr, If, Index, Name, Number, Sum, negate
 from nsode.inclusion import values
 from nsode.inclusion.indices import index, index_range
-from nsode.inclusion.symbols import CALLABLE, SET_VALUED, Scope, Symbol, unknown_function
+from nsode.inclusion.symbols import CALLABLE, INTERNAL, SET_VALUED, Scope, Symbol, unknown_function
 from nsode.inclusion.values import (
     Shape,
     ShapeError,
@@ -249,7 +249,7 @@ def _reduction(expr: Reduction, scope: Scope) -> Value:
 
 
 def _call(expr: Call, scope: Scope) -> Value:
-    if expr.function not in FUNCTIONS and expr.function not in CALLABLE:
+    if (expr.function not in FUNCTIONS and expr.function not in CALLABLE) or _is_internal(expr):
         raise unknown_function(expr)
     if expr.function == "der":
         return scope.derivative(expr, scope)
@@ -266,6 +266,13 @@ def _call(expr: Call, scope: Scope) -> Value:
         return _apply(expr, args)
     except ShapeError as error:
         raise refuse("NS105", str(error), expr.span) from None
+
+
+def _is_internal(call: Call) -> bool:
+    """Tell whether a person wrote the name of a function that the language does not have."""
+    if call.function == "neg":  # a sign ends where its operand does, a call behind it
+        return call.span.end != call.args[-1].span.end
+    return call.function in INTERNAL
 
 
 def _apply(expr: Call, args: tuple[Value, ...]) -> Value:

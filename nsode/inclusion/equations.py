@@ -24,6 +24,7 @@ from nsode.expr import (
     rebuild,
     walk,
 )
+from nsode.inclusion.values import total
 from nsode.source import Span
 
 #: ``der(x)`` is the name ``x.rate`` until its equation is solved, and behind it where read.
@@ -71,11 +72,14 @@ def row(left: Expr, right: Expr, range: IndexRange | None, span: Span) -> Row:
     """
     on_left, left_rest = _linear(left)
     on_right, right_rest = _linear(right)
+    if not on_left:
+        on_left, on_right = on_right, on_left
+        left_rest, right_rest = right_rest, left_rest
     for unknown, coefficient in on_right.items():
         on_left[unknown] = _joined(on_left.get(unknown), negate(coefficient))
     rest = right_rest if right_rest is not None else Number(0.0, span=right.span)
     if left_rest is not None:
-        rest = add(rest, negate(left_rest))
+        rest = total((rest, negate(left_rest)))
     found = Row(tuple(on_left.items()), rest, range, span)
     if not found.coefficients:
         raise refuse(

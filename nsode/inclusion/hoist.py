@@ -63,7 +63,8 @@ class Hoister:
     def hoist(self, expr: Expr, range: RangeSyntax | None) -> Expr:
         """Return ``expr`` with a name in the place of each set-valued term."""
         self._range, self._force, self._inside = range, None, 0
-        return self._visit(expr)
+        with self._all_or_none():
+            return self._visit(expr)
 
     def hoist_force(self, name: Identifier, expr: Expr, range: RangeSyntax | None) -> Expr | None:
         """Take the one outermost term out of a named force; it gets the force's name.
@@ -80,7 +81,8 @@ class Hoister:
         """
         self._range, self._force, self._inside = range, name, 0
         self._outermost = []
-        rest = self._visit(expr)
+        with self._all_or_none():
+            rest = self._visit(expr)
         if not self._outermost:
             for call in _calls(expr):
                 if call.function not in CALLABLE and call.function not in FUNCTIONS:
@@ -98,6 +100,16 @@ class Hoister:
             self.terms[at] = replace(term, multiplier=name.text)
             return None
         return rest
+
+    @contextmanager
+    def _all_or_none(self) -> Iterator[None]:
+        """Take no term out of an expression that is refused."""
+        before = len(self.terms)
+        try:
+            yield
+        except ModelError:
+            del self.terms[before:]
+            raise
 
     def _visit(self, expr: Expr) -> Expr:
         match expr:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
-from nsode.evaluate import evaluate
-from nsode.expr import Expr, Index, Name, Sum, names, walk
+from nsode.expr import Expr
 from nsode.inclusion.equations import Row
-from nsode.inclusion.order import deepest_first
+from nsode.inclusion.start import Constants
 from nsode.inclusion.values import is_zero
-from nsode.ode import Binding, LinearSolve, Parameter
+from nsode.ode import LinearSolve
 
 
 def check_regular(system: LinearSolve, known: Constants, group: Sequence[Row]) -> None:
@@ -24,41 +22,6 @@ def check_regular(system: LinearSolve, known: Constants, group: Sequence[Row]) -
     """
     _check_structure(system.matrix, group)
     _check_rank(system, known, group)
-
-
-@dataclass(slots=True)
-class Constants:
-    """Values of scalars that rest on parameters alone, through lets."""
-
-    bindings: Mapping[str, Binding]
-    values: dict[str, float | None]
-
-    @classmethod
-    def of(cls, parameters: Sequence[Parameter], bindings: Sequence[Binding]) -> Constants:
-        """Return what is known of a model before a run."""
-        values = {p.name: None if len(p.values) != 1 else p.values[0] for p in parameters}
-        return cls({b.name: b for b in bindings if b.range is None}, values)
-
-    def of_all(self, exprs: Sequence[Expr]) -> list[float] | None:
-        """Return the values of expressions, None unless all are constant."""
-        for name in deepest_first(self._bound(exprs), self._below, self.values):
-            self.values[name] = self._value(self.bindings[name].value)
-        found = [self._value(expr) for expr in exprs]
-        return None if None in found else [value for value in found if value is not None]
-
-    def _bound(self, exprs: Sequence[Expr]) -> Iterator[str]:
-        return (n.id for expr in exprs for n in names(expr) if n.id in self.bindings)
-
-    def _below(self, name: str) -> Iterator[str]:
-        return self._bound([self.bindings[name].value])
-
-    def _value(self, expr: Expr) -> float | None:
-        for node in walk(expr):
-            if isinstance(node, Index | Sum) or (
-                isinstance(node, Name) and self.values.get(node.id) is None
-            ):
-                return None
-        return evaluate(expr, lambda name, at: self.values[name] or 0.0)
 
 
 def _check_structure(matrix: tuple[tuple[Expr, ...], ...], group: Sequence[Row]) -> None:

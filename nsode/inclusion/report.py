@@ -70,6 +70,8 @@ def in_a_circle(names: Sequence[str], spans: Mapping[str, Span]) -> ModelError:
     if len(path) > _SHOWN:
         path[_SHOWN - 1 : -1] = ["..."]
     *places, last = spans.values()
+    if not places:
+        return refuse("NS106", f"{path[0]} is defined by itself", last, "needs itself")
     labels = [Label(place, "needs the next") for place in places[: _SHOWN - 1]]
     labels.append(Label(last, "needs the first again"))
     return ModelError(

@@ -9,7 +9,7 @@ from nsode.diagnostics import ModelError, refuse
 from nsode.expr import TIME, Call, Expr, Index, Name, names
 from nsode.inclusion.definitions import Definitions
 from nsode.inclusion.elaborate import elaborate, number
-from nsode.inclusion.equations import Row, derivative_name, row
+from nsode.inclusion.equations import Row, derivative_name, is_unknown, row
 from nsode.inclusion.indices import index_range
 from nsode.inclusion.order import deepest_first
 from nsode.inclusion.report import Report
@@ -75,6 +75,14 @@ class Rows:
             )
         value = elaborate(call.args[0], scope)
         parts = scalars(value)
+        if any(is_unknown(name) for part in parts for name in names(part)):
+            raise refuse(
+                "NS112",
+                "a derivative has no derivative of its own here",
+                call.span,
+                "`der` inside `der`",
+                help="declare the first derivative as a state: `der(p) = v` and `der(v) = ...`",
+            )
         if all(isinstance(part, Name) and self._is_state(part) for part in parts):
             return from_scalars(tuple(_unknown(part, call) for part in parts), shape(value))
         return each(lambda part: self._of_time(part, call), value)

@@ -32,7 +32,8 @@ from nsode.inclusion.equations import (
 )
 from nsode.inclusion.fitting import choose_until
 from nsode.inclusion.matching import Matching
-from nsode.inclusion.regular import Constants, check_regular
+from nsode.inclusion.regular import check_regular
+from nsode.inclusion.start import Constants
 from nsode.inclusion.values import is_zero, total
 from nsode.ode import Binding, LinearSolve, Parameter, Rate, State
 

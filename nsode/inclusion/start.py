@@ -1,14 +1,68 @@
-"""Values at the start rest on parameters: they are computed before a run begins."""
+"""What is known before a run begins, since it rests on parameters alone."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from nsode.diagnostics import Diagnostic, Label
-from nsode.expr import TIME, Name, names
+from nsode.evaluate import evaluate
+from nsode.expr import TIME, Expr, Index, Name, Sum, names, walk
 from nsode.inclusion.elaborate import CONSTANTS
+from nsode.inclusion.order import deepest_first
 from nsode.inclusion.symbols import Symbols
-from nsode.ode import Binding, DifferentialInclusion
+from nsode.ode import Binding, Check, DifferentialInclusion, Parameter
+
+
+@dataclass(slots=True)
+class Constants:
+    """Values of scalars that rest on parameters alone, through lets."""
+
+    bindings: Mapping[str, Binding]
+    values: dict[str, float | None]
+
+    @classmethod
+    def of(cls, parameters: Sequence[Parameter], bindings: Sequence[Binding]) -> Constants:
+        """Return what is known of a model before a run."""
+        values = {p.name: None if len(p.values) != 1 else p.values[0] for p in parameters}
+        return cls({b.name: b for b in bindings if b.range is None}, values)
+
+    def of_all(self, exprs: Sequence[Expr]) -> list[float] | None:
+        """Return the values of expressions, None unless all are constant."""
+        for name in deepest_first(self._bound(exprs), self._below, self.values):
+            self.values[name] = self._value(self.bindings[name].value)
+        found = [self._value(expr) for expr in exprs]
+        return None if None in found else [value for value in found if value is not None]
+
+    def _bound(self, exprs: Sequence[Expr]) -> Iterator[str]:
+        return (n.id for expr in exprs for n in names(expr) if n.id in self.bindings)
+
+    def _below(self, name: str) -> Iterator[str]:
+        return self._bound([self.bindings[name].value])
+
+    def _value(self, expr: Expr) -> float | None:
+        for node in walk(expr):
+            if isinstance(node, Index | Sum) or (
+                isinstance(node, Name) and self.values.get(node.id) is None
+            ):
+                return None
+        return evaluate(expr, lambda name, at: self.values[name] or 0.0)
+
+
+def broken_assumptions(
+    checks: Iterable[Check], inclusion: DifferentialInclusion
+) -> Iterator[Diagnostic]:
+    """Yield an error for each assumption that the parameters of the model break."""
+    bindings = [item for item in inclusion.bindings if isinstance(item, Binding)]
+    known = Constants.of(inclusion.parameters, bindings)
+    for check in checks:
+        if check.kind == "assume" and known.of_all([check.condition]) == [0.0]:
+            yield Diagnostic(
+                "NS307",
+                "the parameters of the model break this assumption",
+                (Label(check.span, "does not hold"),),
+                help="change the parameters or the assumption",
+            )
 
 
 def moving_starts(inclusion: DifferentialInclusion, symbols: Symbols) -> Iterator[Diagnostic]:

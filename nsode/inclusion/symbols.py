@@ -16,9 +16,10 @@ from nsode.source import Span
 #: Functions of vectors and of the language, beside those of scalars.
 VECTOR_FUNCTIONS = {"dot", "cross", "transpose", "qmul"}
 SET_VALUED = {"dio", "sgn"}
-_INTERNAL = {"shrink", "sat"}
+#: Functions of the ODE that no person writes.
+INTERNAL = {"shrink", "sat"}
 CALLABLE = (
-    ({name for name in FUNCTIONS if name.isalnum()} - {"neg", "and", "or", "not"} - _INTERNAL)
+    ({name for name in FUNCTIONS if name.isalnum()} - {"neg", "and", "or", "not"} - INTERNAL)
     | VECTOR_FUNCTIONS
     | SET_VALUED
     | {"der"}
@@ -65,8 +66,9 @@ class Symbols:
         ModelError
             NS103 if it is reserved, NS102 if it is taken.
         """
+        first = self.declared.setdefault(name, span)
         check_free(name, span)
-        if name in self.declared:
+        if first is not span:
             raise ModelError(
                 [
                     Diagnostic(
@@ -74,13 +76,12 @@ class Symbols:
                         f"`{name}` is defined twice",
                         (
                             Label(span, "defined again here"),
-                            Label(self.declared[name], "first here"),
+                            Label(first, "first here"),
                         ),
                         help="rename one of them",
                     )
                 ]
             )
-        self.declared[name] = span
 
     def define(self, symbol: Symbol) -> None:
         """Tell what a declared name stands for."""
