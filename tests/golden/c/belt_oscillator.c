@@ -118,26 +118,20 @@ int belt_oscillator_jac(real t, const real *x, const real *u, const real *p, rea
     const real p_Fc_beta = p[belt_oscillator_P_Fc_beta];
     const real b_Fc_z = x_Fc_a + p_Fc_beta*x_w;
     const real b_Fc_Z = p_F/(p_V + fabs(x_w))*(1/p_Fc_K);
-    const real b_Fc_z_d_w = p_Fc_beta;
     const real b_Fc_Z_part1 = p_V + fabs(x_w);
     const real b_Fc_Z_part1_d_w = (x_w > 0 ? (real)1 : 0) + (x_w < 0 ? (real)-1 : 0);
     const real b_Fc_Z_d_w = 1/p_Fc_K*(-p_F/b_Fc_Z_part1/b_Fc_Z_part1)*b_Fc_Z_part1_d_w;
     const real b_Fc_s_d_Fc_a = fabs(b_Fc_z) < b_Fc_Z ? (real)1 : 0;
-    const real b_Fc_s_d_w = (fabs(b_Fc_z) < b_Fc_Z ? b_Fc_z_d_w : 0) + (b_Fc_z >= b_Fc_Z && b_Fc_z >
+    const real b_Fc_s_d_w = (fabs(b_Fc_z) < b_Fc_Z ? p_Fc_beta : 0) + (b_Fc_z >= b_Fc_Z && b_Fc_z >
         0 ? b_Fc_Z_d_w : 0) + (-b_Fc_z >= b_Fc_Z && b_Fc_z < 0 ? -b_Fc_Z_d_w : 0);
     const real b_Fc_d_Fc_a = p_Fc_K*b_Fc_s_d_Fc_a;
     const real b_Fc_d_w = p_Fc_K*b_Fc_s_d_w;
-    const real b_w_rate_part2_d_p = p_k2*(3*(x_p*x_p)) - p_k1;
-    const real b_w_rate_part2_d_Fc_a = -b_Fc_d_Fc_a;
-    const real b_w_rate_part2_d_w = -b_Fc_d_w;
-    const real b_Fc_a_rate_part3_d_Fc_a = b_Fc_s_d_Fc_a - 1;
-    const real b_Fc_a_rate_part3_d_w = b_Fc_s_d_w;
     J[1] = -1;
-    J[0] = 1/p_M*b_w_rate_part2_d_p;
-    J[4] = 1/p_M*b_w_rate_part2_d_Fc_a;
-    J[2] = 1/p_M*b_w_rate_part2_d_w;
-    J[5] = 1/p_Fc_beta*b_Fc_a_rate_part3_d_Fc_a;
-    J[3] = 1/p_Fc_beta*b_Fc_a_rate_part3_d_w;
+    J[0] = 1/p_M*p_k2*(3*(x_p*x_p)) + (-1/p_M*p_k1);
+    J[4] = -1/p_M*b_Fc_d_Fc_a;
+    J[2] = -1/p_M*b_Fc_d_w;
+    J[5] = 1/p_Fc_beta*b_Fc_s_d_Fc_a - 1/p_Fc_beta;
+    J[3] = 1/p_Fc_beta*b_Fc_s_d_w;
     return belt_oscillator_OK;
 }
 

@@ -184,70 +184,52 @@ int burridge_knopoff_jac(real t, const real *x, const real *u, const real *p, re
     for (int i = 1; i <= 32; ++i) {
         const real b_F_z = x_F_a[i - 1] + p_F_beta*x_v[i - 1];
         const real b_F_Z = p_F0[i - 1]*(1/p_F_K);
-        const real b_F_z_d_v_to0 = p_F_beta;
         const real b_F_s_d_F_a_to0 = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
-        const real b_F_s_d_v_to0 = fabs(b_F_z) < b_F_Z ? b_F_z_d_v_to0 : 0;
+        const real b_F_s_d_v_to0 = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
         const real b_F_d_F_a_to0 = p_F_K*b_F_s_d_F_a_to0;
         const real b_F_d_v_to0 = p_F_K*b_F_s_d_v_to0;
-        const real b_v_rate_part3_d_F_a_to0 = -b_F_d_F_a_to0;
-        const real b_v_rate_part3_d_v_to0 = -b_F_d_v_to0;
-        const real b_F_a_rate_part4_d_F_a_to0 = b_F_s_d_F_a_to0 - 1;
-        const real b_F_a_rate_part4_d_v_to0 = b_F_s_d_v_to0;
         J[jac_places[i - 1]] += 1;
-        J[jac_places[128 + i - 1]] += 1/p_m*b_v_rate_part3_d_F_a_to0;
-        J[jac_places[160 + i - 1]] += 1/p_m*b_v_rate_part3_d_v_to0;
-        J[jac_places[192 + i - 1]] += 1/p_F_beta*b_F_a_rate_part4_d_F_a_to0;
-        J[jac_places[224 + i - 1]] += 1/p_F_beta*b_F_a_rate_part4_d_v_to0;
+        J[jac_places[128 + i - 1]] += -1/p_m*b_F_d_F_a_to0;
+        J[jac_places[160 + i - 1]] += -1/p_m*b_F_d_v_to0;
+        J[jac_places[192 + i - 1]] += 1/p_F_beta*b_F_s_d_F_a_to0 - 1/p_F_beta;
+        J[jac_places[224 + i - 1]] += 1/p_F_beta*b_F_s_d_v_to0;
     }
     for (int i = 1; i <= 31; ++i) {
         const real b_right_d_x_to1 = 1;
         b_right_d_x_to0[i - 1] = -1;
-        const real b_v_rate_part1_d_x_to1 = b_right_d_x_to1;
-        const real b_v_rate_part3_d_x_to1 = p_kc*b_v_rate_part1_d_x_to1;
         if (jac_places[32 + i - 1] >= 0) {
-            J[jac_places[32 + i - 1]] += 1/p_m*b_v_rate_part3_d_x_to1;
+            J[jac_places[32 + i - 1]] += 1/p_m*p_kc*b_right_d_x_to1;
         }
     }
     {
         const real b_right_d_x_to1 = 0;
         b_right_d_x_to0[31] = 0;
-        const real b_v_rate_part1_d_x_to1 = b_right_d_x_to1;
-        const real b_v_rate_part3_d_x_to1 = p_kc*b_v_rate_part1_d_x_to1;
         if (jac_places[32 + 31] >= 0) {
-            J[jac_places[32 + 31]] += 1/p_m*b_v_rate_part3_d_x_to1;
+            J[jac_places[32 + 31]] += 1/p_m*p_kc*b_right_d_x_to1;
         }
     }
     {
         b_left_d_x_to0[0] = 0;
         const real b_left_d_x_tom1 = 0;
-        const real b_v_rate_part1_d_x_to0 = b_right_d_x_to0[0] - b_left_d_x_to0[0];
-        const real b_v_rate_part1_d_x_tom1 = -b_left_d_x_tom1;
-        const real b_v_rate_part3_d_x_to0 = p_kc*b_v_rate_part1_d_x_to0 - p_kp;
-        const real b_v_rate_part3_d_x_tom1 = p_kc*b_v_rate_part1_d_x_tom1;
-        J[jac_places[64 + 0]] += 1/p_m*b_v_rate_part3_d_x_to0;
+        J[jac_places[64 + 0]] += 1/p_m*p_kc*b_right_d_x_to0[0] + (-1/p_m*p_kc*b_left_d_x_to0[0]) -
+            1/p_m*p_kp;
         if (jac_places[96 + 0] >= 0) {
-            J[jac_places[96 + 0]] += 1/p_m*b_v_rate_part3_d_x_tom1;
+            J[jac_places[96 + 0]] += -1/p_m*p_kc*b_left_d_x_tom1;
         }
     }
     for (int i = 2; i <= 32; ++i) {
         b_left_d_x_to0[i - 1] = 1;
         const real b_left_d_x_tom1 = -1;
-        const real b_v_rate_part1_d_x_tom1 = -b_left_d_x_tom1;
-        const real b_v_rate_part3_d_x_tom1 = p_kc*b_v_rate_part1_d_x_tom1;
         if (jac_places[96 + i - 1] >= 0) {
-            J[jac_places[96 + i - 1]] += 1/p_m*b_v_rate_part3_d_x_tom1;
+            J[jac_places[96 + i - 1]] += -1/p_m*p_kc*b_left_d_x_tom1;
         }
     }
     for (int i = 2; i <= 31; ++i) {
-        const real b_v_rate_part1_d_x_to0 = b_right_d_x_to0[i - 1] - b_left_d_x_to0[i - 1];
-        const real b_v_rate_part3_d_x_to0 = p_kc*b_v_rate_part1_d_x_to0 - p_kp;
-        J[jac_places[64 + i - 1]] += 1/p_m*b_v_rate_part3_d_x_to0;
+        J[jac_places[64 + i - 1]] += 1/p_m*p_kc*b_right_d_x_to0[i - 1] +
+            (-1/p_m*p_kc*b_left_d_x_to0[i - 1]) - 1/p_m*p_kp;
     }
-    {
-        const real b_v_rate_part1_d_x_to0 = b_right_d_x_to0[31] - b_left_d_x_to0[31];
-        const real b_v_rate_part3_d_x_to0 = p_kc*b_v_rate_part1_d_x_to0 - p_kp;
-        J[jac_places[64 + 31]] += 1/p_m*b_v_rate_part3_d_x_to0;
-    }
+    J[jac_places[64 + 31]] += 1/p_m*p_kc*b_right_d_x_to0[31] + (-1/p_m*p_kc*b_left_d_x_to0[31]) -
+        1/p_m*p_kp;
     return burridge_knopoff_OK;
 }
 

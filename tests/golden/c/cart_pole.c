@@ -193,21 +193,16 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     }
     const real b_v_rate = vector2[0];
     const real b_w_rate = vector2[1];
-    const real b_F_z_d_v = p_F_beta;
     const real b_F_s_d_F_a = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
-    const real b_F_s_d_v = fabs(b_F_z) < b_F_Z ? b_F_z_d_v : 0;
+    const real b_F_s_d_v = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
     const real b_F_d_F_a = p_F_K*b_F_s_d_F_a;
     const real b_F_d_v = p_F_K*b_F_s_d_v;
-    const real b_T_z_d_w = p_T_beta;
     const real b_T_s_d_T_a = fabs(b_T_z) < b_T_Z ? (real)1 : 0;
-    const real b_T_s_d_w = fabs(b_T_z) < b_T_Z ? b_T_z_d_w : 0;
+    const real b_T_s_d_w = fabs(b_T_z) < b_T_Z ? p_T_beta : 0;
     const real b_T_d_T_a = p_T_K*b_T_s_d_T_a;
     const real b_T_d_w = p_T_K*b_T_s_d_w;
     const real b_v_rate_part1 = p_mp*p_l*(x_w*x_w);
     const real b_v_rate_part1_d_w = p_mp*p_l*(2*x_w);
-    const real b_v_rate_part2_d_phi = p_mp*p_l*(-sin(x_phi));
-    const real b_w_rate_part3 = p_mp*p_g*p_l;
-    const real b_w_rate_part4_d_phi = p_mp*p_l*(-sin(x_phi));
     real matrix3[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
     real vector4[] = {sin(x_phi)*b_v_rate_part1_d_w, -b_T_d_w};
     if (!solve2(matrix3, vector4)) {
@@ -216,8 +211,8 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     const real b_v_rate_d_w = vector4[0];
     const real b_w_rate_d_w = vector4[1];
     real matrix5[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
-    real vector6[] = {b_v_rate_part1*cos(x_phi) + (-b_w_rate*b_v_rate_part2_d_phi),
-        -b_w_rate_part3*cos(x_phi) + (-b_v_rate*b_w_rate_part4_d_phi)};
+    real vector6[] = {b_v_rate_part1*cos(x_phi) + (-b_w_rate*(p_mp*p_l)*(-sin(x_phi))),
+        -p_mp*p_g*p_l*cos(x_phi) + (-b_v_rate*(p_mp*p_l)*(-sin(x_phi)))};
     if (!solve2(matrix5, vector6)) {
         return cart_pole_SINGULAR;
     }
@@ -244,10 +239,6 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     }
     const real b_v_rate_d_T_a = vector12[0];
     const real b_w_rate_d_T_a = vector12[1];
-    const real b_F_a_rate_part6_d_F_a = b_F_s_d_F_a - 1;
-    const real b_F_a_rate_part6_d_v = b_F_s_d_v;
-    const real b_T_a_rate_part7_d_T_a = b_T_s_d_T_a - 1;
-    const real b_T_a_rate_part7_d_w = b_T_s_d_w;
     J[2] = 1;
     J[6] = 1;
     J[7] = b_v_rate_d_w;
@@ -260,10 +251,10 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     J[11] = b_w_rate_d_F_a;
     J[4] = b_w_rate_d_v;
     J[14] = b_w_rate_d_T_a;
-    J[12] = 1/p_F_beta*b_F_a_rate_part6_d_F_a;
-    J[5] = 1/p_F_beta*b_F_a_rate_part6_d_v;
-    J[15] = 1/p_T_beta*b_T_a_rate_part7_d_T_a;
-    J[9] = 1/p_T_beta*b_T_a_rate_part7_d_w;
+    J[12] = 1/p_F_beta*b_F_s_d_F_a - 1/p_F_beta;
+    J[5] = 1/p_F_beta*b_F_s_d_v;
+    J[15] = 1/p_T_beta*b_T_s_d_T_a - 1/p_T_beta;
+    J[9] = 1/p_T_beta*b_T_s_d_w;
     return cart_pole_OK;
 }
 

@@ -115,31 +115,24 @@ int diode_circuit_jac(real t, const real *x, const real *u, const real *p, real 
     const real p_D_alpha = p[diode_circuit_P_D_alpha];
     const real p_D_beta = p[diode_circuit_P_D_beta];
     const real b_D_psi = x_i;
-    const real b_D_part2 = p_D_beta*(b_D_psi + x_D_e);
-    const real b_D_part2_d_i = p_D_beta;
-    const real b_D_part2_d_D_e = p_D_beta;
-    const real b_D_part3 = x_D_e - b_D_part2*(1/p_D_alpha);
-    const real b_D_part3_d_D_e = 1 + (-1/p_D_alpha*b_D_part2_d_D_e);
-    const real b_D_part3_d_i = -1/p_D_alpha*b_D_part2_d_i;
-    const real b_D_d_D_e = 0 < b_D_part3 ? p_D_K*b_D_part3_d_D_e : 0;
-    const real b_D_d_i = 0 < b_D_part3 ? p_D_K*b_D_part3_d_i : 0;
-    const real b_i_rate_part4_d_i = -p_Rs + b_D_d_i;
-    const real b_i_rate_part4_d_D_e = b_D_d_D_e;
-    const real b_vc_rate_part5_d_vc = -1/p_R;
-    const real b_D_e_rate_part6 = -(b_D_psi + x_D_e);
-    const real b_D_e_rate_part7 = -x_D_e*(1/p_D_beta);
-    const real b_D_e_rate_part7_d_D_e = -1/p_D_beta;
-    const real b_D_e_rate_part8 = b_D_e_rate_part6*(1/p_D_alpha);
-    const real b_D_e_rate_part8_d_i = -1/p_D_alpha;
-    const real b_D_e_rate_part8_d_D_e = -1/p_D_alpha;
+    const real b_D_part1 = x_D_e - p_D_beta*(b_D_psi + x_D_e)*(1/p_D_alpha);
+    const real b_D_part1_d_D_e = 1 + (-1/p_D_alpha*p_D_beta);
+    const real b_D_part1_d_i = -1/p_D_alpha*p_D_beta;
+    const real b_D_d_D_e = 0 < b_D_part1 ? p_D_K*b_D_part1_d_D_e : 0;
+    const real b_D_d_i = 0 < b_D_part1 ? p_D_K*b_D_part1_d_i : 0;
+    const real b_D_e_rate_part2 = -x_D_e*(1/p_D_beta);
+    const real b_D_e_rate_part2_d_D_e = -1/p_D_beta;
+    const real b_D_e_rate_part3 = -(b_D_psi + x_D_e)*(1/p_D_alpha);
+    const real b_D_e_rate_part3_d_i = -1/p_D_alpha;
+    const real b_D_e_rate_part3_d_D_e = -1/p_D_alpha;
     J[3] = -1/p_L;
-    J[0] = 1/p_L*b_i_rate_part4_d_i;
-    J[5] = 1/p_L*b_i_rate_part4_d_D_e;
+    J[0] = -1/p_L*p_Rs + 1/p_L*b_D_d_i;
+    J[5] = 1/p_L*b_D_d_D_e;
     J[1] = 1/p_C;
-    J[4] = 1/p_C*b_vc_rate_part5_d_vc;
-    J[6] = (b_D_e_rate_part7 >= b_D_e_rate_part8 ? b_D_e_rate_part7_d_D_e : 0) + (b_D_e_rate_part7 <
-        b_D_e_rate_part8 ? b_D_e_rate_part8_d_D_e : 0);
-    J[2] = b_D_e_rate_part7 < b_D_e_rate_part8 ? b_D_e_rate_part8_d_i : 0;
+    J[4] = -1/p_C*(1/p_R);
+    J[6] = (b_D_e_rate_part2 >= b_D_e_rate_part3 ? b_D_e_rate_part2_d_D_e : 0) + (b_D_e_rate_part2 <
+        b_D_e_rate_part3 ? b_D_e_rate_part3_d_D_e : 0);
+    J[2] = b_D_e_rate_part2 < b_D_e_rate_part3 ? b_D_e_rate_part3_d_i : 0;
     return diode_circuit_OK;
 }
 

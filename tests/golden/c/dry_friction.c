@@ -114,20 +114,15 @@ int dry_friction_jac(real t, const real *x, const real *u, const real *p, real *
     const real p_F_beta = p[dry_friction_P_F_beta];
     const real b_F_z = x_F_a + p_F_beta*x_v;
     const real b_F_Z = p_F0/p_F_K;
-    const real b_F_z_d_v = p_F_beta;
     const real b_F_s_d_F_a = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
-    const real b_F_s_d_v = fabs(b_F_z) < b_F_Z ? b_F_z_d_v : 0;
+    const real b_F_s_d_v = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
     const real b_F_d_F_a = p_F_K*b_F_s_d_F_a;
     const real b_F_d_v = p_F_K*b_F_s_d_v;
-    const real b_v_rate_part1_d_F_a = -b_F_d_F_a;
-    const real b_v_rate_part1_d_v = -b_F_d_v;
-    const real b_F_a_rate_part2_d_F_a = b_F_s_d_F_a - 1;
-    const real b_F_a_rate_part2_d_v = b_F_s_d_v;
     J[0] = 1;
-    J[3] = 1/p_M*b_v_rate_part1_d_F_a;
-    J[1] = 1/p_M*b_v_rate_part1_d_v;
-    J[4] = 1/p_F_beta*b_F_a_rate_part2_d_F_a;
-    J[2] = 1/p_F_beta*b_F_a_rate_part2_d_v;
+    J[3] = -1/p_M*b_F_d_F_a;
+    J[1] = -1/p_M*b_F_d_v;
+    J[4] = 1/p_F_beta*b_F_s_d_F_a - 1/p_F_beta;
+    J[2] = 1/p_F_beta*b_F_s_d_v;
     return dry_friction_OK;
 }
 

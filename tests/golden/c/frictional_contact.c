@@ -184,16 +184,11 @@ int frictional_contact_jac(real t, const real *x, const real *u, const real *p, 
     const real b_F_z_y = x_F_a_y + p_F_beta*x_v_y;
     const real b_F_Z = p_mu*b_N*(1/p_F_K);
     const real b_F_shrink = shrink(b_F_Z, norm2(b_F_z_x, b_F_z_y));
-    const real b_N_part1 = p_N_beta*(b_N_psi + x_N_e);
-    const real b_N_part1_d_p_z = p_N_beta;
-    const real b_N_part1_d_N_e = p_N_beta;
-    const real b_N_part2 = x_N_e - b_N_part1*(1/p_N_alpha);
-    const real b_N_part2_d_N_e = 1 + (-1/p_N_alpha*b_N_part1_d_N_e);
-    const real b_N_part2_d_p_z = -1/p_N_alpha*b_N_part1_d_p_z;
-    const real b_N_d_N_e = 0 < b_N_part2 ? p_N_K*b_N_part2_d_N_e : 0;
-    const real b_N_d_p_z = 0 < b_N_part2 ? p_N_K*b_N_part2_d_p_z : 0;
-    const real b_F_z_x_d_v_x = p_F_beta;
-    const real b_F_z_y_d_v_y = p_F_beta;
+    const real b_N_part1 = x_N_e - p_N_beta*(b_N_psi + x_N_e)*(1/p_N_alpha);
+    const real b_N_part1_d_N_e = 1 + (-1/p_N_alpha*p_N_beta);
+    const real b_N_part1_d_p_z = -1/p_N_alpha*p_N_beta;
+    const real b_N_d_N_e = 0 < b_N_part1 ? p_N_K*b_N_part1_d_N_e : 0;
+    const real b_N_d_p_z = 0 < b_N_part1 ? p_N_K*b_N_part1_d_p_z : 0;
     const real b_F_Z_d_N_e = 1/p_F_K*p_mu*b_N_d_N_e;
     const real b_F_Z_d_p_z = 1/p_F_K*p_mu*b_N_d_p_z;
     const real b_F_shrink_d_N_e = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 ?
@@ -205,17 +200,17 @@ int frictional_contact_jac(real t, const real *x, const real *u, const real *p, 
         b_F_z_y)*(b_F_z_x/norm2(b_F_z_x, b_F_z_y)) : 0;
     const real b_F_shrink_d_v_x = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 &&
         norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_x/norm2(b_F_z_x, b_F_z_y))*b_F_z_x_d_v_x : 0;
+        b_F_z_y)*(b_F_z_x/norm2(b_F_z_x, b_F_z_y))*p_F_beta : 0;
     const real b_F_shrink_d_F_a_y = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0
         && norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
         b_F_z_y)*(b_F_z_y/norm2(b_F_z_x, b_F_z_y)) : 0;
     const real b_F_shrink_d_v_y = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 &&
         norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_y/norm2(b_F_z_x, b_F_z_y))*b_F_z_y_d_v_y : 0;
+        b_F_z_y)*(b_F_z_y/norm2(b_F_z_x, b_F_z_y))*p_F_beta : 0;
     const real b_F_s_x_d_N_e = b_F_z_x*b_F_shrink_d_N_e;
     const real b_F_s_x_d_p_z = b_F_z_x*b_F_shrink_d_p_z;
     const real b_F_s_x_d_F_a_x = b_F_z_x*b_F_shrink_d_F_a_x + b_F_shrink;
-    const real b_F_s_x_d_v_x = b_F_z_x*b_F_shrink_d_v_x + b_F_shrink*b_F_z_x_d_v_x;
+    const real b_F_s_x_d_v_x = b_F_z_x*b_F_shrink_d_v_x + b_F_shrink*p_F_beta;
     const real b_F_s_x_d_F_a_y = b_F_z_x*b_F_shrink_d_F_a_y;
     const real b_F_s_x_d_v_y = b_F_z_x*b_F_shrink_d_v_y;
     const real b_F_s_y_d_N_e = b_F_z_y*b_F_shrink_d_N_e;
@@ -223,7 +218,7 @@ int frictional_contact_jac(real t, const real *x, const real *u, const real *p, 
     const real b_F_s_y_d_F_a_x = b_F_z_y*b_F_shrink_d_F_a_x;
     const real b_F_s_y_d_v_x = b_F_z_y*b_F_shrink_d_v_x;
     const real b_F_s_y_d_F_a_y = b_F_z_y*b_F_shrink_d_F_a_y + b_F_shrink;
-    const real b_F_s_y_d_v_y = b_F_z_y*b_F_shrink_d_v_y + b_F_shrink*b_F_z_y_d_v_y;
+    const real b_F_s_y_d_v_y = b_F_z_y*b_F_shrink_d_v_y + b_F_shrink*p_F_beta;
     const real b_F_x_d_N_e = p_F_K*b_F_s_x_d_N_e;
     const real b_F_x_d_p_z = p_F_K*b_F_s_x_d_p_z;
     const real b_F_x_d_F_a_x = p_F_K*b_F_s_x_d_F_a_x;
@@ -236,24 +231,11 @@ int frictional_contact_jac(real t, const real *x, const real *u, const real *p, 
     const real b_F_y_d_v_x = p_F_K*b_F_s_y_d_v_x;
     const real b_F_y_d_F_a_y = p_F_K*b_F_s_y_d_F_a_y;
     const real b_F_y_d_v_y = p_F_K*b_F_s_y_d_v_y;
-    const real b_N_e_rate_part3 = -(b_N_psi + x_N_e);
-    const real b_N_e_rate_part4 = -x_N_e*(1/p_N_beta);
-    const real b_N_e_rate_part4_d_N_e = -1/p_N_beta;
-    const real b_N_e_rate_part5 = b_N_e_rate_part3*(1/p_N_alpha);
-    const real b_N_e_rate_part5_d_p_z = -1/p_N_alpha;
-    const real b_N_e_rate_part5_d_N_e = -1/p_N_alpha;
-    const real b_F_a_x_rate_part6_d_N_e = b_F_s_x_d_N_e;
-    const real b_F_a_x_rate_part6_d_p_z = b_F_s_x_d_p_z;
-    const real b_F_a_x_rate_part6_d_F_a_x = b_F_s_x_d_F_a_x - 1;
-    const real b_F_a_x_rate_part6_d_v_x = b_F_s_x_d_v_x;
-    const real b_F_a_x_rate_part6_d_F_a_y = b_F_s_x_d_F_a_y;
-    const real b_F_a_x_rate_part6_d_v_y = b_F_s_x_d_v_y;
-    const real b_F_a_y_rate_part7_d_N_e = b_F_s_y_d_N_e;
-    const real b_F_a_y_rate_part7_d_p_z = b_F_s_y_d_p_z;
-    const real b_F_a_y_rate_part7_d_F_a_x = b_F_s_y_d_F_a_x;
-    const real b_F_a_y_rate_part7_d_v_x = b_F_s_y_d_v_x;
-    const real b_F_a_y_rate_part7_d_F_a_y = b_F_s_y_d_F_a_y - 1;
-    const real b_F_a_y_rate_part7_d_v_y = b_F_s_y_d_v_y;
+    const real b_N_e_rate_part2 = -x_N_e*(1/p_N_beta);
+    const real b_N_e_rate_part2_d_N_e = -1/p_N_beta;
+    const real b_N_e_rate_part3 = -(b_N_psi + x_N_e)*(1/p_N_alpha);
+    const real b_N_e_rate_part3_d_p_z = -1/p_N_alpha;
+    const real b_N_e_rate_part3_d_N_e = -1/p_N_alpha;
     J[6] = 1;
     J[11] = 1;
     J[16] = 1;
@@ -271,21 +253,21 @@ int frictional_contact_jac(real t, const real *x, const real *u, const real *p, 
     J[13] = -1/p_M*b_F_y_d_v_y;
     J[19] = 1/p_M*b_N_d_N_e;
     J[2] = 1/p_M*b_N_d_p_z;
-    J[20] = (b_N_e_rate_part4 >= b_N_e_rate_part5 ? b_N_e_rate_part4_d_N_e : 0) + (b_N_e_rate_part4
-        < b_N_e_rate_part5 ? b_N_e_rate_part5_d_N_e : 0);
-    J[3] = b_N_e_rate_part4 < b_N_e_rate_part5 ? b_N_e_rate_part5_d_p_z : 0;
-    J[21] = 1/p_F_beta*b_F_a_x_rate_part6_d_N_e;
-    J[4] = 1/p_F_beta*b_F_a_x_rate_part6_d_p_z;
-    J[25] = 1/p_F_beta*b_F_a_x_rate_part6_d_F_a_x;
-    J[9] = 1/p_F_beta*b_F_a_x_rate_part6_d_v_x;
-    J[29] = 1/p_F_beta*b_F_a_x_rate_part6_d_F_a_y;
-    J[14] = 1/p_F_beta*b_F_a_x_rate_part6_d_v_y;
-    J[22] = 1/p_F_beta*b_F_a_y_rate_part7_d_N_e;
-    J[5] = 1/p_F_beta*b_F_a_y_rate_part7_d_p_z;
-    J[26] = 1/p_F_beta*b_F_a_y_rate_part7_d_F_a_x;
-    J[10] = 1/p_F_beta*b_F_a_y_rate_part7_d_v_x;
-    J[30] = 1/p_F_beta*b_F_a_y_rate_part7_d_F_a_y;
-    J[15] = 1/p_F_beta*b_F_a_y_rate_part7_d_v_y;
+    J[20] = (b_N_e_rate_part2 >= b_N_e_rate_part3 ? b_N_e_rate_part2_d_N_e : 0) + (b_N_e_rate_part2
+        < b_N_e_rate_part3 ? b_N_e_rate_part3_d_N_e : 0);
+    J[3] = b_N_e_rate_part2 < b_N_e_rate_part3 ? b_N_e_rate_part3_d_p_z : 0;
+    J[21] = 1/p_F_beta*b_F_s_x_d_N_e;
+    J[4] = 1/p_F_beta*b_F_s_x_d_p_z;
+    J[25] = 1/p_F_beta*b_F_s_x_d_F_a_x - 1/p_F_beta;
+    J[9] = 1/p_F_beta*b_F_s_x_d_v_x;
+    J[29] = 1/p_F_beta*b_F_s_x_d_F_a_y;
+    J[14] = 1/p_F_beta*b_F_s_x_d_v_y;
+    J[22] = 1/p_F_beta*b_F_s_y_d_N_e;
+    J[5] = 1/p_F_beta*b_F_s_y_d_p_z;
+    J[26] = 1/p_F_beta*b_F_s_y_d_F_a_x;
+    J[10] = 1/p_F_beta*b_F_s_y_d_v_x;
+    J[30] = 1/p_F_beta*b_F_s_y_d_F_a_y - 1/p_F_beta;
+    J[15] = 1/p_F_beta*b_F_s_y_d_v_y;
     return frictional_contact_OK;
 }
 

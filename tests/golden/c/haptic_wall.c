@@ -170,19 +170,15 @@ int haptic_wall_jac(real t, const real *x, const real *u, const real *p, real *J
     const real b_N = p_N_K*max0(x_N_e - p_N_beta*(b_N_psi + x_N_e)*(1/p_N_alpha));
     const real b_F_z = x_F_a + p_F_beta*x_v_y;
     const real b_F_Z = p_mu*b_N*(1/p_F_K);
-    const real b_N_part1 = p_N_beta*(b_N_psi + x_N_e);
-    const real b_N_part1_d_p_x = p_N_beta;
-    const real b_N_part1_d_N_e = p_N_beta;
-    const real b_N_part2 = x_N_e - b_N_part1*(1/p_N_alpha);
-    const real b_N_part2_d_N_e = 1 + (-1/p_N_alpha*b_N_part1_d_N_e);
-    const real b_N_part2_d_p_x = -1/p_N_alpha*b_N_part1_d_p_x;
-    const real b_N_d_N_e = 0 < b_N_part2 ? p_N_K*b_N_part2_d_N_e : 0;
-    const real b_N_d_p_x = 0 < b_N_part2 ? p_N_K*b_N_part2_d_p_x : 0;
-    const real b_F_z_d_v_y = p_F_beta;
+    const real b_N_part1 = x_N_e - p_N_beta*(b_N_psi + x_N_e)*(1/p_N_alpha);
+    const real b_N_part1_d_N_e = 1 + (-1/p_N_alpha*p_N_beta);
+    const real b_N_part1_d_p_x = -1/p_N_alpha*p_N_beta;
+    const real b_N_d_N_e = 0 < b_N_part1 ? p_N_K*b_N_part1_d_N_e : 0;
+    const real b_N_d_p_x = 0 < b_N_part1 ? p_N_K*b_N_part1_d_p_x : 0;
     const real b_F_Z_d_N_e = 1/p_F_K*p_mu*b_N_d_N_e;
     const real b_F_Z_d_p_x = 1/p_F_K*p_mu*b_N_d_p_x;
     const real b_F_s_d_F_a = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
-    const real b_F_s_d_v_y = fabs(b_F_z) < b_F_Z ? b_F_z_d_v_y : 0;
+    const real b_F_s_d_v_y = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
     const real b_F_s_d_N_e = (b_F_z >= b_F_Z && b_F_z > 0 ? b_F_Z_d_N_e : 0) + (-b_F_z >= b_F_Z &&
         b_F_z < 0 ? -b_F_Z_d_N_e : 0);
     const real b_F_s_d_p_x = (b_F_z >= b_F_Z && b_F_z > 0 ? b_F_Z_d_p_x : 0) + (-b_F_z >= b_F_Z &&
@@ -195,41 +191,28 @@ int haptic_wall_jac(real t, const real *x, const real *u, const real *p, real *J
     const real b_arm_x_d_v_x = -p_c;
     const real b_arm_y_d_p_y = -p_k;
     const real b_arm_y_d_v_y = -p_c;
-    const real b_v_x_rate_part5_d_p_x = b_arm_x_d_p_x + b_N_d_p_x;
-    const real b_v_x_rate_part5_d_v_x = b_arm_x_d_v_x - p_b;
-    const real b_v_x_rate_part5_d_N_e = b_N_d_N_e;
-    const real b_v_y_rate_part6_d_p_y = b_arm_y_d_p_y;
-    const real b_v_y_rate_part6_d_v_y = b_arm_y_d_v_y - p_b - b_F_d_v_y;
-    const real b_v_y_rate_part6_d_F_a = -b_F_d_F_a;
-    const real b_v_y_rate_part6_d_N_e = -b_F_d_N_e;
-    const real b_v_y_rate_part6_d_p_x = -b_F_d_p_x;
-    const real b_N_e_rate_part7 = -(b_N_psi + x_N_e);
-    const real b_N_e_rate_part8 = -x_N_e*(1/p_N_beta);
-    const real b_N_e_rate_part8_d_N_e = -1/p_N_beta;
-    const real b_N_e_rate_part9 = b_N_e_rate_part7*(1/p_N_alpha);
-    const real b_N_e_rate_part9_d_p_x = -1/p_N_alpha;
-    const real b_N_e_rate_part9_d_N_e = -1/p_N_alpha;
-    const real b_F_a_rate_part10_d_F_a = b_F_s_d_F_a - 1;
-    const real b_F_a_rate_part10_d_v_y = b_F_s_d_v_y;
-    const real b_F_a_rate_part10_d_N_e = b_F_s_d_N_e;
-    const real b_F_a_rate_part10_d_p_x = b_F_s_d_p_x;
+    const real b_N_e_rate_part2 = -x_N_e*(1/p_N_beta);
+    const real b_N_e_rate_part2_d_N_e = -1/p_N_beta;
+    const real b_N_e_rate_part3 = -(b_N_psi + x_N_e)*(1/p_N_alpha);
+    const real b_N_e_rate_part3_d_p_x = -1/p_N_alpha;
+    const real b_N_e_rate_part3_d_N_e = -1/p_N_alpha;
     J[5] = 1;
     J[7] = 1;
-    J[0] = 1/p_m*b_v_x_rate_part5_d_p_x;
-    J[6] = 1/p_m*b_v_x_rate_part5_d_v_x;
-    J[10] = 1/p_m*b_v_x_rate_part5_d_N_e;
-    J[4] = 1/p_m*b_v_y_rate_part6_d_p_y;
-    J[8] = 1/p_m*b_v_y_rate_part6_d_v_y;
-    J[14] = 1/p_m*b_v_y_rate_part6_d_F_a;
-    J[11] = 1/p_m*b_v_y_rate_part6_d_N_e;
-    J[1] = 1/p_m*b_v_y_rate_part6_d_p_x;
-    J[12] = (b_N_e_rate_part8 >= b_N_e_rate_part9 ? b_N_e_rate_part8_d_N_e : 0) + (b_N_e_rate_part8
-        < b_N_e_rate_part9 ? b_N_e_rate_part9_d_N_e : 0);
-    J[2] = b_N_e_rate_part8 < b_N_e_rate_part9 ? b_N_e_rate_part9_d_p_x : 0;
-    J[15] = 1/p_F_beta*b_F_a_rate_part10_d_F_a;
-    J[9] = 1/p_F_beta*b_F_a_rate_part10_d_v_y;
-    J[13] = 1/p_F_beta*b_F_a_rate_part10_d_N_e;
-    J[3] = 1/p_F_beta*b_F_a_rate_part10_d_p_x;
+    J[0] = 1/p_m*b_arm_x_d_p_x + 1/p_m*b_N_d_p_x;
+    J[6] = 1/p_m*b_arm_x_d_v_x + (-1/p_m*p_b);
+    J[10] = 1/p_m*b_N_d_N_e;
+    J[4] = 1/p_m*b_arm_y_d_p_y;
+    J[8] = 1/p_m*b_arm_y_d_v_y + (-1/p_m*p_b) + (-1/p_m*b_F_d_v_y);
+    J[14] = -1/p_m*b_F_d_F_a;
+    J[11] = -1/p_m*b_F_d_N_e;
+    J[1] = -1/p_m*b_F_d_p_x;
+    J[12] = (b_N_e_rate_part2 >= b_N_e_rate_part3 ? b_N_e_rate_part2_d_N_e : 0) + (b_N_e_rate_part2
+        < b_N_e_rate_part3 ? b_N_e_rate_part3_d_N_e : 0);
+    J[2] = b_N_e_rate_part2 < b_N_e_rate_part3 ? b_N_e_rate_part3_d_p_x : 0;
+    J[15] = 1/p_F_beta*b_F_s_d_F_a - 1/p_F_beta;
+    J[9] = 1/p_F_beta*b_F_s_d_v_y;
+    J[13] = 1/p_F_beta*b_F_s_d_N_e;
+    J[3] = 1/p_F_beta*b_F_s_d_p_x;
     return haptic_wall_OK;
 }
 
