@@ -69,6 +69,8 @@ def build(
     inclusion, misfits = check_units(model, inclusion)
     course.report.found.extend(misfits)
     course.report.raise_errors()
+    course.report.found.extend(broken_assumptions(inclusion))
+    course.report.raise_errors()
     course.remark(inclusion)
     return inclusion, tuple(course.report.ordered())
 
@@ -91,7 +93,7 @@ class _Course:
     def __post_init__(self) -> None:
         self.symbols = Symbols(self.limits)
         self.review = Review(self.limits)
-        self.report = Report(self.model.source)
+        self.report = Report(self.model.source, self.limits)
         self.declared = Declarations(self.symbols, self.review)
         self.definitions = Definitions(self.symbols, self.review, self.report)
 
@@ -245,7 +247,6 @@ class _Course:
         """Check subscripts, the hypotheses of the method, and the sign of each factor."""
         self._check_subscripts(inclusion)
         self.report.found.extend(moving_starts(inclusion, self.symbols))
-        self.report.found.extend(broken_assumptions(self.checks, inclusion))
         self.report.raise_errors()
         hypotheses = Hypotheses(base_reads(state.name for state in inclusion.states))
         prover = prover_of(inclusion, self.checks)

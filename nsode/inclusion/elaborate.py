@@ -10,6 +10,7 @@ from nsode.diagnostics import refuse
 from nsode.expr import FUNCTIONS, TIME, Call, Expr, If, Index, Name, Number, Sum, negate
 from nsode.inclusion import values
 from nsode.inclusion.indices import index, index_range
+from nsode.inclusion.report import PoisonedError
 from nsode.inclusion.symbols import CALLABLE, INTERNAL, SET_VALUED, Scope, Symbol, unknown_function
 from nsode.inclusion.values import (
     Shape,
@@ -130,6 +131,8 @@ def components(name: str, of: Shape, at: Index | None, span_of: Expr) -> Value:
 
 
 def _name(expr: Name, scope: Scope) -> Value:
+    if expr.id in {TIME, "pi"} and expr.id in scope.symbols.declared:
+        raise PoisonedError(expr.id, expr.span)
     if expr.id == TIME:
         return expr
     if expr.id == "pi":

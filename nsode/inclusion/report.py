@@ -7,7 +7,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
+from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.source import NOWHERE, Source, Span
+from nsode.syntax.parser import in_order
 
 
 class PoisonedError(Exception):
@@ -23,6 +25,7 @@ class Report:
     """Diagnostics of one model, in the order found."""
 
     source: Source
+    limits: Limits = DEFAULT_LIMITS
     found: list[Diagnostic] = field(default_factory=list)
     skipped: list[PoisonedError] = field(default_factory=list)
 
@@ -54,7 +57,7 @@ class Report:
             With everything found, warnings included.
         """
         if any(d.severity == "error" for d in self.found):
-            raise ModelError(self.ordered(), self.source)
+            raise ModelError(in_order(self.ordered(), self.limits), self.source)
         for error in self.skipped:  # nothing may be left out in silence
             message = f"`{error.name}` is read before its value is known"
             raise refuse("NS101", message, error.span, "read here")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from nsode.diagnostics import Diagnostic, Label
@@ -11,7 +11,7 @@ from nsode.expr import TIME, Expr, Index, Name, Sum, names, walk
 from nsode.inclusion.elaborate import CONSTANTS
 from nsode.inclusion.order import deepest_first
 from nsode.inclusion.symbols import Symbols
-from nsode.ode import Binding, Check, DifferentialInclusion, Parameter
+from nsode.ode import Binding, DifferentialInclusion, Parameter
 
 
 @dataclass(slots=True)
@@ -49,13 +49,11 @@ class Constants:
         return evaluate(expr, lambda name, at: self.values[name] or 0.0)
 
 
-def broken_assumptions(
-    checks: Iterable[Check], inclusion: DifferentialInclusion
-) -> Iterator[Diagnostic]:
+def broken_assumptions(inclusion: DifferentialInclusion) -> Iterator[Diagnostic]:
     """Yield an error for each assumption that the parameters of the model break."""
     bindings = [item for item in inclusion.bindings if isinstance(item, Binding)]
     known = Constants.of(inclusion.parameters, bindings)
-    for check in checks:
+    for check in inclusion.checks:
         if check.kind == "assume" and known.of_all([check.condition]) == [0.0]:
             yield Diagnostic(
                 "NS307",

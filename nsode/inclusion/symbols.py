@@ -57,6 +57,7 @@ class Symbols:
     declared: dict[str, Span] = field(default_factory=dict)
     known: dict[str, Symbol] = field(default_factory=dict)
     used: set[str] = field(default_factory=set)
+    doubled: set[str] = field(default_factory=set)
 
     def declare(self, name: str, span: Span) -> None:
         """Take a name.
@@ -69,6 +70,7 @@ class Symbols:
         first = self.declared.setdefault(name, span)
         check_free(name, span)
         if first is not span:
+            self.doubled.add(name)
             raise ModelError(
                 [
                     Diagnostic(
@@ -98,7 +100,7 @@ class Symbols:
             If its declaration was refused.
         """
         symbol = self.known.get(name)
-        if symbol is not None:
+        if symbol is not None and name not in self.doubled:
             self.used.add(name)
             return symbol
         if name in self.declared:

@@ -139,7 +139,7 @@ def parse(source: Source, limits: Limits = DEFAULT_LIMITS) -> ast.Model:
         else:
             names.append(tree) if isinstance(tree, ast.Identifier) else trees.append(tree)
     if errors:
-        raise ModelError(_in_order(errors, limits), source)
+        raise ModelError(in_order(errors, limits), source)
     return ast.Model(names[0], tuple(trees), source)
 
 
@@ -153,7 +153,7 @@ def _parse_statement(statement: StatementTokens, limits: Limits) -> ast.Statemen
     return tree
 
 
-def _in_order(errors: list[Diagnostic], limits: Limits) -> list[Diagnostic]:
+def in_order(errors: Sequence[Diagnostic], limits: Limits) -> list[Diagnostic]:
     """Return the errors by place, as many as the limit allows."""
     ordered = sorted(errors, key=lambda e: e.labels[0].span.start if e.labels else 0)
     kept = ordered[: limits.errors]
