@@ -35,7 +35,7 @@ def sheet() -> Sheet:
             axis.set_title(f"u = {speed[1:]} m/s", fontsize="medium")
         other = runs["u1-smoothing"]
         axes[0].plot(
-            other["p"], other["w"], color="#d55e00", ls="", marker=".", ms=4, markevery=97,
+            other["p"], other["w"], color="#d55e00", ls="", marker=".", ms=4, markevery=101,
             label="(50), smoothing",
         )  # fmt: skip
         axes[0].legend(fontsize="small")
