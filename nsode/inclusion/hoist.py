@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Literal, NamedTuple
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
-from nsode.expr import FUNCTIONS, Call, Expr, If, Name, Number
+from nsode.expr import FUNCTIONS, Call, Expr, If, Name, Number, rebuild
 from nsode.inclusion.symbols import CALLABLE, unknown_function
 from nsode.source import Span
 from nsode.syntax.ast import (
@@ -116,11 +116,11 @@ class Hoister:
             case Call("dio", _):
                 return self._dio(expr)
             case Call("*" | "/", _):
-                return self._product(_flatten(expr))
+                return self._product(expr)
             case _ if _sgn(expr) is not None:
-                return self._product([_Item("", expr)])
-            case Call(args=args):
-                return replace(expr, args=tuple(self._visit(arg) for arg in args))
+                return self._product(expr)
+            case Call():
+                return rebuild(expr, self._visit)
             case Group(inner):
                 return replace(expr, inner=self._visit(inner))
             case Bracket(items):
@@ -158,12 +158,17 @@ class Hoister:
     def _dio(self, expr: Call) -> Expr:
         return self._place(self._take("dio", expr, None, expr.span))
 
-    def _product(self, items: list[_Item]) -> Expr:
+    def _product(self, expr: Expr) -> Expr:
+        items = _flatten(expr)
         at = next(
             (k for k, item in enumerate(items) if item.operator != "/" and _sgn(item.operand)), None
         )
         if at is None:
-            return _fold([_Item(op, self._visit(operand)) for op, operand in items])
+            visited = [_Item(op, self._visit(operand)) for op, operand in items]
+            changed = any(
+                new.operand is not old.operand for new, old in zip(visited, items, strict=True)
+            )
+            return _fold(visited) if changed else expr
         found = _sgn(items[at].operand)
         assert found is not None
         call, wrappers, sign = found
