@@ -180,7 +180,9 @@ class _Course:
         """Equations, initial values, assumptions, approximations, runs."""
         self.rows.elaborate(self.report)
         scope = self.scope
-        approximations = Approximations(self.elements.names, replace(scope, constants=True))
+        approximations = Approximations(
+            self.elements.names, replace(scope, constants=True), self.review
+        )
         hints: list[ast.SimulateStatement] = []
         for statement in self.model.statements:
             with self.report.collecting():
@@ -201,7 +203,7 @@ class _Course:
             ),
         )
         with self.report.collecting():
-            self.hints, remarks = run(hints, scope)
+            self.hints, remarks = run(hints, scope, self.review)
             self.report.found.extend(remarks)
 
     def assemble(self) -> DifferentialInclusion:

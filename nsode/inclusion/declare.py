@@ -15,7 +15,7 @@ from nsode.inclusion.fitting import declared_shape, fitted
 from nsode.inclusion.indices import index_range, integer
 from nsode.inclusion.order import loop, order
 from nsode.inclusion.report import Report, in_a_circle
-from nsode.inclusion.review import Review
+from nsode.inclusion.review import Review, in_words
 from nsode.inclusion.settings import constant
 from nsode.inclusion.symbols import Scope, Symbol, Symbols
 from nsode.inclusion.units import in_si
@@ -66,9 +66,9 @@ class Declarations:
                 self._constant(known[name])
         if len(ordered) < len(known):
             circle = loop(list(reads), reads)
-            report.found.extend(
-                in_a_circle(circle, {name: known[name].name.span for name in circle}).diagnostics
-            )
+            spans = {name: known[name].name.span for name in circle}
+            error = in_a_circle(circle, spans, "give one of them a number")
+            report.found.extend(error.diagnostics)
 
     def _constant(self, declaration: ConstantDeclaration) -> None:
         value = integer(declaration.value, self.scope, f"`{declaration.name.text}`")
@@ -219,7 +219,7 @@ def _elements(
         element = evaluate(value, _no_names, {over.variable: k})
         if not math.isfinite(element):
             where = f"for `{over.variable} = {k}`"
-            raise refuse("NS116", f"{what} is {element} {where}", value.span, "undefined there")
+            raise refuse("NS116", f"{what} is {in_words(element)} {where}", value.span)
         found.append(constant(in_si(Number(element, span=value.span), unit), what))
     return tuple(found)
 

@@ -109,7 +109,9 @@ class Definitions:
             key: raw[key].span if key in raw else self._pending[key].declarator.name.span
             for key in keys
         }
-        return in_a_circle([key.removesuffix(".lambda") for key in named] or ["sgn"], spans)
+        shown = [key.removesuffix(".lambda") for key in named] or ["sgn"]
+        way_out = "solve the loop by hand, or make one of them a state"
+        return in_a_circle(shown, spans, way_out)
 
     def _let(self, pending: _Pending) -> None:
         declarator, name = pending.declarator, pending.declarator.name

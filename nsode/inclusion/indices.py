@@ -58,6 +58,8 @@ def integer(expr: Expr, scope: Scope, what: str) -> int:
 
 def _why_not(expr: Expr, scope: Scope) -> str:
     match expr:
+        case Number(value):
+            return f"this is {value:g}"
         case Name(id) if id in scope.indices:
             return "this is an index"
         case Name(id):

@@ -67,14 +67,16 @@ class Report:
 _SHOWN = 5
 
 
-def in_a_circle(names: Sequence[str], spans: Mapping[str, Span]) -> ModelError:
+def in_a_circle(names: Sequence[str], spans: Mapping[str, Span], way_out: str) -> ModelError:
     """Return the error for definitions that need each other; ``spans`` in reading order."""
     path = [f"`{name}`" for name in names]
     if len(path) > _SHOWN:
         path[_SHOWN - 1 : -1] = ["..."]
     *places, last = spans.values()
     if not places:
-        return refuse("NS106", f"{path[0]} is defined by itself", last, "needs itself")
+        return refuse(
+            "NS106", f"{path[0]} is defined by itself", last, "needs itself", help=way_out
+        )
     labels = [Label(place, "needs the next") for place in places[: _SHOWN - 1]]
     labels.append(Label(last, "needs the first again"))
     return ModelError(
@@ -83,7 +85,7 @@ def in_a_circle(names: Sequence[str], spans: Mapping[str, Span]) -> ModelError:
                 "NS106",
                 "these are defined by each other: " + " -> ".join([*path, path[0]]),
                 tuple(labels),
-                help="solve the loop by hand, or make one of them a state",
+                help=way_out,
             )
         ]
     )

@@ -73,7 +73,7 @@ class Review:
             if not math.isfinite(value):
                 raise refuse(
                     "NS116",
-                    f"this constant is {_words(value)}",
+                    f"this constant is {in_words(value)}",
                     expr.span,
                     help="check the numbers that go into it",
                 )
@@ -115,5 +115,6 @@ def _coefficient(expr: Call, parts: list[_Seen]) -> float:
     return value
 
 
-def _words(value: float) -> str:
+def in_words(value: float) -> str:
+    """Return what is wrong with a number."""
     return "not a number" if math.isnan(value) else "infinite"

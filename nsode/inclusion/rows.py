@@ -14,7 +14,7 @@ from nsode.inclusion.indices import index_range
 from nsode.inclusion.order import deepest_first
 from nsode.inclusion.report import Report
 from nsode.inclusion.review import Review
-from nsode.inclusion.symbols import Scope, Symbols
+from nsode.inclusion.symbols import Scope, Symbol, Symbols
 from nsode.inclusion.values import Value, describe, each, from_scalars, scalars, shape
 from nsode.ode import Binding, DifferentialInclusion
 from nsode.source import Source
@@ -78,9 +78,9 @@ class Rows:
         if any(is_unknown(name) for part in parts for name in names(part)):
             raise refuse(
                 "NS112",
-                "a derivative has no derivative of its own here",
+                "`der` cannot stand inside `der`",
                 call.span,
-                "`der` inside `der`",
+                "a second derivative",
                 help="declare the first derivative as a state: `der(p) = v` and `der(v) = ...`",
             )
         if all(isinstance(part, Name) and self._is_state(part) for part in parts):
@@ -123,7 +123,7 @@ class Rows:
         symbol = self.symbols.known.get(name.id.partition(".")[0].partition("[")[0])
         if name.id == TIME or (symbol is not None and symbol.kind == "parameter"):
             return False
-        raise _no_function_of_time(name, call)
+        raise _no_function_of_time(name, symbol, call)
 
 
 def _itself(binding: Binding) -> moving.Row:
@@ -136,11 +136,15 @@ def _unknown(part: Expr, call: Call) -> Name:
     return Name(derivative_name(part.id), part.at, span=call.span)
 
 
-def _no_function_of_time(name: Name, call: Call) -> ModelError:
+def _no_function_of_time(name: Name, symbol: Symbol | None, call: Call) -> ModelError:
+    kind = None if symbol is None else symbol.kind
+    way_out = "write its derivative out with the chain rule"
+    if kind == "input":
+        way_out = "a function of time that is known is a `let` of `t`"
     return refuse(
         "NS112",
         "`der` takes a state, or a function of time alone",
         call.span,
-        f"depends on `{name.id}`",
-        help="write its derivative out with the chain rule",
+        "holds a set-valued term" if kind == "term" else f"depends on `{name.id}`",
+        help=way_out,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -10,6 +11,7 @@ from nsode.evaluate import evaluate
 from nsode.expr import Expr, Number, names
 from nsode.inclusion.elaborate import scalar
 from nsode.inclusion.report import PoisonedError
+from nsode.inclusion.review import Review
 from nsode.inclusion.symbols import Scope
 from nsode.inclusion.units import in_si
 from nsode.ode import Approximation, Run, SetValuedTerm
@@ -33,6 +35,7 @@ class Approximations:
 
     elements: Mapping[str, SetValuedTerm]
     scope: Scope
+    review: Review
     _own: dict[str, tuple[Approximation, Identifier]] = field(default_factory=dict)
     _defaults: dict[str, tuple[Approximation, Span]] = field(default_factory=dict)
 
@@ -95,6 +98,7 @@ class Approximations:
             if isinstance(setting.value, Identifier):
                 raise refuse("NS303", f"`{setting.name.text}` wants a number", setting.span)
             value = scalar(setting.value, self.scope, f"`{setting.name.text}`")
+            self.review.check(value)
             found.append((setting.name.text, in_si(value, setting.unit)))
         return Approximation(
             "xiong2013" if statement.law is None else statement.law.text,
@@ -126,7 +130,9 @@ def _check_new(setting: Setting, seen: dict[str, Setting]) -> None:
         )
 
 
-def run(statements: Sequence[SimulateStatement], scope: Scope) -> tuple[Run, list[Diagnostic]]:
+def run(
+    statements: Sequence[SimulateStatement], scope: Scope, review: Review
+) -> tuple[Run, list[Diagnostic]]:
     """Return the defaults of a run and what is to be said of them.
 
     Raises
@@ -147,7 +153,7 @@ def run(statements: Sequence[SimulateStatement], scope: Scope) -> tuple[Run, lis
         if isinstance(setting.value, Identifier):
             method = setting.value.text
         else:
-            numbers[setting.name.text] = _positive(setting, setting.value, scope)
+            numbers[setting.name.text] = _positive(setting, setting.value, scope, review)
     found = Run(
         numbers.get("duration"),
         numbers.get("step"),
@@ -158,13 +164,15 @@ def run(statements: Sequence[SimulateStatement], scope: Scope) -> tuple[Run, lis
     return found, _remarks(found)
 
 
-def _positive(setting: Setting, value: Expr, scope: Scope) -> float:
+def _positive(setting: Setting, value: Expr, scope: Scope, review: Review) -> float:
     what = setting.name.text
-    found = constant(in_si(scalar(value, scope, f"the {what}"), setting.unit), f"the {what}")
-    if not found > 0:
+    written = scalar(value, scope, f"the {what}")
+    review.check(written)
+    found = constant(in_si(written, setting.unit), f"the {what}")
+    if not 0 < found < math.inf:
         raise refuse(
             "NS501",
-            f"the {what} of a run must be greater than 0",
+            f"the {what} of a run must be a finite number greater than 0",
             setting.span,
             f"this is {found:g}",
         )

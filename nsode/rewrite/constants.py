@@ -11,6 +11,7 @@ from nsode.evaluate import evaluate
 from nsode.expr import Call, Expr, Name, Number, names
 from nsode.inclusion.elaborate import CONSTANTS
 from nsode.inclusion.order import loop, order
+from nsode.inclusion.review import in_words
 from nsode.ode import Approximation, Check, DifferentialInclusion, Parameter, SetValuedTerm
 from nsode.regularizations import LAWS, Condition, Constant, law, laws_of
 from nsode.rewrite.fixed import Fixed
@@ -194,9 +195,8 @@ def _values(
         if math.isinf(found[name]) or (math.isnan(found[name]) and known):
             raise refuse(
                 "NS116",
-                f"the constant `{name}` is {found[name]}",
+                f"the constant `{name}` is {in_words(found[name])}",
                 given[name].span,
-                "undefined",
                 help="check the numbers that go into it",
             )
     return found

@@ -1,0 +1,3 @@
+model point
+state p[2] = [0, 0]
+der(p) = [p[2], p[3]]

@@ -1,0 +1,4 @@
+model slider
+state v = 1
+let moving = v > 0
+der(v) = -moving*sgn(v)

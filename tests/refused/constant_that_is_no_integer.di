@@ -1,0 +1,4 @@
+model chain
+constant n = 5/2
+state x[i in 1..n] = 0
+for i in 1..n: der(x[i]) = -x[i]

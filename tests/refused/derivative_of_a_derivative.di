@@ -1,0 +1,3 @@
+model falling
+state p = 1
+der(der(p)) = -9.8
