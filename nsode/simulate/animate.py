@@ -126,7 +126,7 @@ class Animation:
                 yield Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB")
 
     def _gif(self) -> bytes:
-        first, *others = self.pictures()
+        first, *others = (picture.quantize(64) for picture in self.pictures())
         buffer = BytesIO()
         first.save(
             buffer, "gif", save_all=True, append_images=others, duration=1000 / self.rate, loop=0
