@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -47,16 +48,18 @@ def distinct(terms: list[SetValuedTerm], inline: set[str], numbering: Numbering)
     first: dict[_Identity, tuple[SetValuedTerm, float]] = {}
     kept: list[SetValuedTerm] = []
     same: list[tuple[SetValuedTerm, SetValuedTerm, float]] = []
-    for term in sorted(terms, key=lambda term: term.span):
+    for term in sorted(terms, key=lambda term: (term.kind, term.span)):  # a factor may hold dio
         identity, scale = _identity(term, numbering)
-        known = first.setdefault(identity, (term, scale))
-        if known[0] is term:
+        known, known_scale = first.setdefault(identity, (term, scale))
+        if known is term:
             kept.append(term)
-        else:
-            ratio = scale / known[1]
-            same.append(
-                (term, known[0], ratio if term.kind == "dio" else (1.0 if ratio > 0 else -1.0))
-            )
+            continue
+        ratio = scale / known_scale
+        if term.kind == "sgn":
+            ratio = math.copysign(1.0, ratio)
+        same.append((term, known, ratio))
+        for alias in _alias(term, known, ratio, inline):
+            numbering.add(alias)
     renamed = _final_names(kept, same, inline)
     aliases: list[Binding] = []
     for term, element, ratio in same:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
-from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, children, subtract
+from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, add, children, negate
 from nsode.inclusion.sharing import Numbering
 from nsode.inclusion.signs import Goal, Prover
 from nsode.ode import Binding, Check, DifferentialInclusion, Parameter, SetValuedTerm
@@ -41,7 +41,16 @@ def _take(prover: Prover, condition: Expr, bound: bool) -> None:
             if goal in {"<=", "<"} and limit <= 0:
                 prover.bounds.setdefault(id, set()).add("<" if limit < 0 else goal)
         case Call(relation, (left, right)) if relation in _RELATIONS:
-            prover.assume(subtract(left, right), _RELATIONS[relation])
+            prover.assume(_difference(left, right), _RELATIONS[relation])
+
+
+def _difference(left: Expr, right: Expr) -> Expr:
+    """Return ``left - right`` as one flat sum, as a factor would be written."""
+    return add(*_terms(left), *(negate(term) for term in _terms(right)))
+
+
+def _terms(expr: Expr) -> tuple[Expr, ...]:
+    return expr.args if isinstance(expr, Call) and expr.function == "+" else (expr,)
 
 
 def prove_factor(prover: Prover, term: SetValuedTerm, source: Source) -> list[Check]:

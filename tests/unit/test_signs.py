@@ -1,0 +1,169 @@
+"""chi >= 0 is proved by structure, and exactly what a proof used is guarded."""
+
+from __future__ import annotations
+
+import pytest
+
+from support.reading import compiled, refused, text
+
+HEAD = (
+    "parameter mu = 0.5",
+    "parameter N = 2",
+    "parameter zero = 0",
+    "parameter below = -1",
+    "parameter bounded = 3 {1} >= 0",
+    "parameter far = 3 {1} >= 1",
+    "constant n = 3",
+    "parameter k[i in 1..n] = i",
+    "parameter mixed[i in 1..n] = i - 2",
+    "state v = 1",
+    "state w = 2",
+    "state x[i in 1..n] = 0",
+    "der(w) = 0",
+    "for i in 1..n: der(x[i]) = 0",
+)
+
+PROVED = [
+    "1", "0", "mu", "zero", "mu*N", "mu + N", "N/mu", "bounded", "below*below", "below*(-N)",
+    "abs(w)", "norm([v, w])", "sqrt(w)", "exp(w)", "cosh(w)", "max(0, w)", "max(w, mu)",
+    "min(mu, max(0, w))", "min(mu, abs(w))", "w^2", "w^-2", "(v - w)^4", "mu^3", "w*w",
+    "(v - w)*(2*v - 2*w)", "dio(w)", "mu*dio(w)", "mu*sqrt(dio(w))", "N/(mu + abs(w))",
+    "N/(1 + w^2)", "N/exp(w)", "N/(far - 0)", "tanh(abs(w))", "atan(mu)", "if t > 0 then mu else 1",
+    "sum(i in 1..n: x[i]^2)", "sum(i in 1..n: k[i]*abs(x[i]))", "sum(i in 1..n: i*x[i]^2)",
+    "sum(i in 1..n: (i - 1)*abs(x[i]))", "sum(i in 1..n: (2*i - 1 - i)*abs(x[i]))", "acos(w)",
+    "-(-mu)", "(-mu)*(-N)", "k[2]", "abs(w)/(k[1] + abs(v))",
+]  # fmt: skip
+
+UNPROVED = [
+    "w", "below", "mu - N", "N - mu", "w^3", "w*v", "mu*below", "sin(w)", "mu + below", "N/zero",
+    "N/w", "N/abs(w)", "min(mu, w)", "max(below, w)", "log(N)", "tanh(w)", "-dio(w)", "t", "mixed[1]",
+    "sum(i in 1..n: (i - 2)*abs(x[i]))", "sum(i in 1..n: mixed[i]^3)", "sum(i in 1..n: x[i])",
+    "if t > 0 then mu else below", "-abs(w)", "x[1]", "sqrt(below)*0 - 1",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("factor", PROVED)
+def test_is_proved(factor: str) -> None:
+    assert refused(*HEAD, f"der(v) = -({factor})*sgn(v)") == []
+
+
+@pytest.mark.parametrize("factor", UNPROVED)
+def test_is_not_proved(factor: str) -> None:
+    assert refused(*HEAD, f"let chi = {factor}", "der(v) = -chi*sgn(v)") == ["NS201"]
+
+
+@pytest.mark.parametrize(
+    ("assumption", "factor"),
+    [
+        ("w >= 0", "w"),
+        ("w > 0", "mu/w"),
+        ("0 <= w", "w"),
+        ("w <= 0", "-w + 0"),
+        ("mu >= w", "mu - w"),
+        ("mu >= w", "2*(mu - w)"),
+        ("w <= mu", "(mu - w)/N"),
+        ("mu - w >= 0", "mu - w"),
+        ("w - mu <= 0", "chi"),
+        ("chi > 0", "chi"),
+        ("chi > 0", "1/chi"),
+        ("w > 0 and v > 0", "v*w"),
+        ("v + w >= N", "w - N + v"),
+        ("x[2] >= 0", "x[2]"),
+    ],
+)
+def test_is_proved_by_an_assumption(assumption: str, factor: str) -> None:
+    lines = (*HEAD, "let chi = mu - w", f"der(v) = -({factor})*sgn(v)")
+    assert refused(*lines) == ["NS201"]
+    assert refused(*lines, f"assume {assumption}") == []
+
+
+@pytest.mark.parametrize(
+    ("assumption", "factor"),
+    [
+        ("w >= 0", "-w*1"),
+        ("w >= 0", "mu/w"),
+        ("w >= 0 or v >= 0", "w"),
+        ("0*w >= 0", "-w + 0"),
+        ("w - w >= 0", "-2*3*w^2"),
+        ("x[2] >= 0", "x[1]"),
+        ("not (w < 0)", "w - 1"),
+    ],
+)
+def test_is_not_proved_by_another_assumption(assumption: str, factor: str) -> None:
+    lines = (*HEAD, "let chi = " + factor, "der(v) = -chi*sgn(v)")
+    assert refused(*lines, f"assume {assumption}") == ["NS201"]
+
+
+def guards(*lines: str) -> set[str]:
+    """Return the bounds that the proof of a factor left behind."""
+    model = compiled(*HEAD, *lines)
+    return {text(c.condition) for c in model.inclusion.checks if "nonnegative" in c.reason}
+
+
+@pytest.mark.parametrize(
+    ("factor", "guarded"),
+    [
+        ("mu*N", {"(mu >= 0)", "(N >= 0)"}),
+        ("mu*abs(w)", {"(mu >= 0)"}),
+        ("N/mu", {"(N >= 0)", "(mu > 0)"}),
+        ("mu/(mu + abs(w))", {"(mu > 0)"}),
+        ("bounded*abs(w)", set()),
+        ("N/far", {"(N >= 0)"}),
+        ("below*below*mu", {"(mu >= 0)"}),
+        ("below*(-N)", {"(below <= 0)", "(N >= 0)"}),
+        ("max(mu, abs(w))", {"(mu >= 0)"}),
+        ("max(abs(w), mu)", set()),
+        ("exp(below)", set()),
+        ("sum(i in 1..n: k[i]*abs(x[i]))", {"(k[i] >= 0)"}),
+        ("2", set()),
+    ],
+)
+def test_just_what_the_proof_used_is_guarded(factor: str, guarded: set[str]) -> None:
+    assert guards(f"der(v) = -({factor})*sgn(v)") == guarded
+
+
+def test_an_assumption_is_checked_and_so_is_the_factor() -> None:
+    model = compiled(*HEAD, "assume w >= 0", "der(v) = -w*sgn(v)")
+    kinds = [(c.kind, text(c.condition)) for c in model.inclusion.checks]
+    assert ("assume", "(w >= 0)") in kinds
+    assert ("factor", "(w >= 0)") in kinds
+
+
+def test_bounds_are_kept_in_si() -> None:
+    model = compiled("parameter phi = 20 {deg} <= 180", "state v = 0", "der(v) = phi")
+    [check] = model.inclusion.checks
+    assert text(check.condition).startswith("(phi <= 3.14159")
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["parameter a = -1 >= 0"],
+        ["parameter a = 0 > 0"],
+        ["parameter a[i in 1..3] = 2 - i >= 0"],
+        ["parameter a[2] = [1, -1] >= 0"],
+        ["parameter a = 30 {deg} <= 20"],
+        ["input a = 2 <= 1"],
+        ["parameter a = 1", "assume a > 1"],
+        ["parameter a = 1", "let b = 2*a", "assume b < a"],
+        ["assume 1 < 0"],
+    ],
+)
+def test_values_that_break_their_own_bounds_are_refused(lines: list[str]) -> None:
+    assert refused(*lines, "state v = 0", "der(v) = 0") == ["NS307"]
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["parameter a = 0 >= 0"],
+        ["parameter a = 1 > 0 < 2"],
+        ["parameter a[i in 1..3] = 3 - i >= 0"],
+        ["input a = 1 >= 0"],
+        ["input a >= 0"],
+        ["parameter a = 1", "assume a >= 1"],
+        ["state w = 0", "der(w) = 1", "assume w > 5"],
+    ],
+)
+def test_values_within_their_bounds_are_accepted(lines: list[str]) -> None:
+    assert refused(*lines, "state v = 0", "der(v) = 0") == []
