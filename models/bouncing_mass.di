@@ -1,7 +1,7 @@
 # A mass dropped on a rigid floor (paper, Section 4.2, equation (27), Figure 5).
 #
 # alpha/beta sets how much of the speed comes back: 1 returns all of it, smaller
-# ratios return less. Try -p N.alpha=1e-3.
+# ratios return less. Try -p f.alpha=1e-3.
 model bouncing_mass
 
 parameter M  = 1    {kg}

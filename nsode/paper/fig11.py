@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 
-from nsode.paper.sheet import Sheet, canvas, model, under_law
+from nsode.paper.sheet import Sheet, canvas, model
 from nsode.simulate import Mode, RunWarning, Trajectory
 
 _SECONDS = 50.0
@@ -17,7 +17,7 @@ _EPSILON = 1e-5
 def sheet() -> Sheet:
     """Return the figure of the paper at u = 1, and the same at u = 0.1."""
     ours = model("belt_oscillator")
-    smooth = under_law(ours, "Fc", "smoothing", epsilon=_EPSILON)
+    smooth = ours.with_law(friction="smoothing").with_parameters({"Fc.epsilon": _EPSILON})
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RunWarning)  # at u = 1 it never sticks
         runs = {

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from nsode.paper.sheet import Sheet, canvas, model, under_law
+from nsode.paper.sheet import Sheet, canvas, model
 from nsode.simulate import Trajectory
 from nsode.simulate.plot import COLORS
 
 _SECONDS, _STEP = 20.0, 1e-3
 _SETTLED = 10.0  # seconds, after which the start is forgotten
-_K, _BETA = 5e3, 2e-3
 
 
 def sheet() -> Sheet:
     """Return the figure: 20 s, where the paper shows the first few."""
     ours = model("dry_friction")
+    lugre = ours.with_law(friction="lugre")  # K and F0 are ours, B = K beta and D = 0
     runs = {
         "xiong2013": ours.simulate(_SECONDS, _STEP),
-        "lugre": under_law(ours, "F", "lugre", K=_K, B=_K * _BETA).simulate(_SECONDS, _STEP),
-        "dahl": under_law(ours, "F", "lugre", K=_K, B=0.0).simulate(_SECONDS, _STEP),
+        "lugre": lugre.simulate(_SECONDS, _STEP),
+        "dahl": lugre.simulate(_SECONDS, _STEP, parameters={"F.B": 0.0}),
     }
     long = ours.simulate(1e4, _STEP, every=50, parameters={"omega": 40 * np.pi})
     settled = long["p"][long.t >= _SETTLED]
@@ -49,7 +49,7 @@ all. Mean velocity from {_SETTLED:g} s to {_SECONDS:g} s:
 | law | drift |
 |-|-|
 | (18), this method | {rates["xiong2013"]:.1e} m/s |
-| LuGre (12), B = K*beta = {_K * _BETA:g} N s/m, D = 0 | {rates["lugre"]:.1e} m/s |
+| LuGre (12), B = K*beta = 10 N s/m, D = 0 | {rates["lugre"]:.1e} m/s |
 | Dahl, B = D = 0 | {rates["dahl"]:.1e} m/s |
 
 The paper does not state LuGre's B and D; these reproduce its drift. What is left of (18) is

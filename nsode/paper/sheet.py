@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
@@ -12,9 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nsode.compiler import Model, loads
-from nsode.expr import Number
-from nsode.ode import Approximation, Definition, SetValuedTerm
-from nsode.rewrite import rewrite
 from nsode.simulate import Trajectory
 
 if TYPE_CHECKING:
@@ -34,20 +31,6 @@ class Sheet:
 def model(name: str) -> Model:
     """Return one of the shipped models."""
     return loads(files("nsode.models").joinpath(f"{name}.di").read_bytes(), f"{name}.di")
-
-
-def under_law(model: Model, term: str, law: str, **constants: float) -> Model:
-    """Return a model with one element under another law."""
-    chosen = Approximation(law, tuple((name, Number(value)) for name, value in constants.items()))
-
-    def changed(item: Definition) -> Definition:
-        if isinstance(item, SetValuedTerm) and item.name == term:
-            return replace(item, approximation=chosen)
-        return item
-
-    bindings = tuple(map(changed, model.inclusion.bindings))
-    inclusion = replace(model.inclusion, bindings=bindings)
-    return Model(inclusion, rewrite(inclusion), ())
 
 
 @contextmanager
