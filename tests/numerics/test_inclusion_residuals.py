@@ -161,4 +161,6 @@ def test_the_inclusions_hold_to_two_eps_of_scale_on_the_compiled_c(name, batch):
 def test_a_model_without_constants_still_compiles_and_its_p0_says_so(compile_c):
     native = compile_c("model m\nstate v = 1\nforce F = 2*sgn(v)\nder(v) = -F\n")
     assert np.isnan(native.p0).all()
-    assert nsode.loads("model m\nstate v = 1\nder(v) = -sgn(v)\n").ode.parameters[0].name == "sgn1.K"
+    assert (
+        nsode.loads("model m\nstate v = 1\nder(v) = -sgn(v)\n").ode.parameters[0].name == "sgn1.K"
+    )
