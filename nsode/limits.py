@@ -31,7 +31,9 @@ class Limits:
     exponent
         The magnitude of a constant exponent (NS013).
     elements
-        Elements of one family (NS014).
+        Elements of one family, and terms of sums inside each other (NS014).
+    sums
+        Sums inside each other (NS011).
     vector
         Components of a vector, or rows or columns of a matrix (NS014).
     analysis
@@ -53,6 +55,7 @@ class Limits:
     operations: int = 50_000
     exponent: int = 64
     elements: int = 1_000_000
+    sums: int = 3
     vector: int = 16
     analysis: int = 400
     steps: int = 10**9

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from nsode.diagnostics import refuse
 from nsode.evaluate import apply
-from nsode.expr import Call, Expr, Number, children
+from nsode.expr import Call, Expr, Number, Sum, children
 from nsode.inclusion.values import Value, scalars
 from nsode.limits import Limits, either
 
@@ -17,6 +17,8 @@ class _Seen(NamedTuple):
     size: int
     constant: float | None
     coefficient: float
+    sums: int = 0
+    terms: int = 1
 
 
 @dataclass(slots=True)
@@ -34,7 +36,7 @@ class Review:
         ------
         ModelError
             NS013 for a huge exponent, NS116 for a constant that is infinite or no
-            number, NS011 for an expression that grows too large.
+            number, NS011 and NS014 for an expression that grows too large.
         """
         self._kept.append(value)
         size = 0
@@ -60,10 +62,15 @@ class Review:
 
     def _combine(self, expr: Expr, parts: list[_Seen]) -> _Seen:
         size = 1 + sum(part.size for part in parts)
+        sums = max((part.sums for part in parts), default=0)
+        terms = max((part.terms for part in parts), default=1)
+        if isinstance(expr, Sum):
+            sums, terms = sums + 1, terms * max(1, len(expr.range))
+            self._check_sums(expr, sums, terms)
         if isinstance(expr, Number):
             return _Seen(1, expr.value, expr.value)
         if not isinstance(expr, Call):
-            return _Seen(size, None, 1.0)
+            return _Seen(size, None, 1.0, sums, terms)
         constants = [part.constant for part in parts]
         if expr.function == "^":
             _check_exponent(expr, constants[1], self.limits)
@@ -78,7 +85,24 @@ class Review:
                     help="check the numbers that go into it",
                 )
             return _Seen(size, value, value)
-        return _Seen(size, None, _coefficient(expr, parts))
+        return _Seen(size, None, _coefficient(expr, parts), sums, terms)
+
+    def _check_sums(self, expr: Sum, sums: int, terms: int) -> None:
+        limits = self.limits
+        if sums > limits.sums:
+            raise refuse(
+                "NS011",
+                f"more than {limits.sums} sums inside each other",
+                expr.span,
+                help=either("name an inner sum with `let`", limits.raised("sums", sums)),
+            )
+        if terms > limits.elements:
+            raise refuse(
+                "NS014",
+                f"{terms} terms in sums inside each other are more than {limits.elements}",
+                expr.span,
+                help=either("shorten their ranges", limits.raised("elements", terms)),
+            )
 
 
 def _check_exponent(expr: Call, exponent: float | None, limits: Limits) -> None:

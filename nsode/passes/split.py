@@ -32,10 +32,13 @@ from nsode.ode import AugmentedODE, Binding, Check, Definition, LinearSolve, Rat
 Sample = Mapping[str, int]
 _Affine = dict[str | None, Fraction]
 
+_OUTSIDE: Sample = {}
 _COMPARISONS = {"<", "<=", ">", ">=", "==", "!="}
 
 
-def pieces(range: IndexRange, *exprs: Expr) -> list[tuple[IndexRange, tuple[Expr, ...]]]:
+def pieces(
+    range: IndexRange, *exprs: Expr, inside: Sample = _OUTSIDE
+) -> list[tuple[IndexRange, tuple[Expr, ...]]]:
     """Break a range into the fewest pieces in which no ``if`` on indices is left.
 
     Parameters
@@ -44,6 +47,8 @@ def pieces(range: IndexRange, *exprs: Expr) -> list[tuple[IndexRange, tuple[Expr
         The index over which the expressions stand.
     *exprs
         Expressions that share the range, such as the rows of a linear system.
+    inside
+        The pieces of other ranges in which this one stands.
 
     Returns
     -------
@@ -56,7 +61,8 @@ def pieces(range: IndexRange, *exprs: Expr) -> list[tuple[IndexRange, tuple[Expr
         _collect_cuts(expr, range, cuts)
     found: list[tuple[IndexRange, tuple[Expr, ...]]] = []
     for piece in _break(range, cuts):
-        here = tuple(_resolve(expr, {range.variable: piece.first}) for expr in exprs)
+        sample = {**inside, range.variable: piece.first}
+        here = tuple(_resolve(expr, sample) for expr in exprs)
         if found and found[-1][1] == here:
             found[-1] = (IndexRange(range.variable, found[-1][0].first, piece.last), here)
         else:
@@ -208,10 +214,9 @@ def _resolve(expr: Expr, sample: Sample) -> Expr:
 
 
 def _resolve_sum(expr: Sum, sample: Sample) -> Expr:
-    outer = {name: at for name, at in sample.items() if name != expr.range.variable}
     parts = [
         replace(expr, range=piece, body=body)
-        for piece, (body,) in pieces(expr.range, _resolve(expr.body, outer))
+        for piece, (body,) in pieces(expr.range, expr.body, inside=sample)
     ]
     return add(*parts) if parts else Number(0.0, span=expr.span)
 

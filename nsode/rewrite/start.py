@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.evaluate import evaluate
-from nsode.expr import TIME, Call, Expr, IndexRange, Name, Sum, children, names, walk
+from nsode.expr import TIME, Call, Expr, IndexRange, Name, Sum, children, names
 from nsode.ode import AugmentedODE, Binding, Rate
 
 #: Families that read each other deeper than this, and sums longer, are not looked into.
@@ -66,6 +66,12 @@ def _ends(rate: Rate) -> Iterator[dict[str, int]]:
     elif len(rate.range):
         yield {rate.range.variable: rate.range.first}
         yield {rate.range.variable: rate.range.last}
+
+
+def _terms(expr: Expr) -> int:
+    """Return how often the innermost part of sums inside each other is computed."""
+    inner = max(map(_terms, children(expr)), default=1)
+    return inner * len(expr.range) if isinstance(expr, Sum) else inner
 
 
 @dataclass(slots=True)
@@ -127,8 +133,7 @@ class _Start:
 
     def _is_long(self, expr: Expr) -> bool:
         if id(expr) not in self.long:
-            sums = (node for node in walk(expr) if isinstance(node, Sum))
-            self.long[id(expr)] = any(len(node.range) > _LENGTH for node in sums)
+            self.long[id(expr)] = _terms(expr) > _LENGTH
         return self.long[id(expr)]
 
     def culprit(self, expr: Expr, indices: dict[str, int]) -> Expr | None:
