@@ -24,7 +24,7 @@ class Constants:
     @classmethod
     def of(cls, parameters: Sequence[Parameter], bindings: Sequence[Binding]) -> Constants:
         """Return what is known of a model before a run."""
-        values = {p.name: None if len(p.values) != 1 else p.values[0] for p in parameters}
+        values = {p.name: p.values[0] if p.range is None else None for p in parameters}
         return cls({b.name: b for b in bindings if b.range is None}, values)
 
     def of_all(self, exprs: Sequence[Expr]) -> list[float] | None:
