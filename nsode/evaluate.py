@@ -16,26 +16,38 @@ def evaluate(expr: Expr, lookup: Lookup, indices: Mapping[str, int] | None = Non
     """Return the value of a scalar expression; conditions are 1.0 or 0.0.
 
     Division by zero and arguments outside a function's domain give infinities and
-    NaN, as the generated code does.
+    NaN, as the generated code does. Trees that share parts, as derivatives do, cost
+    what their parts cost once.
     """
-    at = indices or {}
+    return _value(expr, lookup, indices or {}, {})
+
+
+def _value(expr: Expr, lookup: Lookup, at: Mapping[str, int], shared: dict[int, float]) -> float:
     match expr:
         case Number(value):
             return value
         case Index():
             return float(position(expr, at))
-        case Name(id, subscript):
-            return lookup(id, None if subscript is None else position(subscript, at))
+        case Name(name, subscript):
+            return lookup(name, None if subscript is None else position(subscript, at))
+    known = shared.get(id(expr))
+    if known is None:
+        known = shared[id(expr)] = _compound(expr, lookup, at, shared)
+    return known
+
+
+def _compound(expr: Expr, lookup: Lookup, at: Mapping[str, int], shared: dict[int, float]) -> float:
+    match expr:
         case Call(function, args):
-            return apply(function, *(evaluate(arg, lookup, at) for arg in args))
+            return apply(function, *[_value(arg, lookup, at, shared) for arg in args])
         case If(condition, then, otherwise):
-            chosen = then if evaluate(condition, lookup, at) else otherwise
-            return evaluate(chosen, lookup, at)
+            chosen = then if _value(condition, lookup, at, shared) else otherwise
+            return _value(chosen, lookup, at, shared)
         case Sum(over, body):  # no pattern on the range: its length is not that of a tuple
             variable, first, last = over
             total = 0.0
             for k in range(first, last + 1):
-                total += evaluate(body, lookup, {**at, variable: k})
+                total += _value(body, lookup, {**at, variable: k}, {})
             return total
     raise NotImplementedError(f"no value for {type(expr).__name__}")
 

@@ -20,8 +20,6 @@ from nsode.analysis.reach import subsets
 #: More sets than these are not listed; a bound takes their place.
 MOST_SETS = 4096
 
-_AXES = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
-
 
 @dataclass(frozen=True, slots=True)
 class Mode:
@@ -50,8 +48,10 @@ ActiveSet = tuple[Mode, ...]
 
 def slips(dimension: int) -> tuple[Mode, ...]:
     """Return the modes of slip that stand for all directions."""
-    directions = ((1.0,), (-1.0,)) if dimension == 1 else _AXES
-    return tuple(Mode("slip", direction) for direction in directions)
+    axes = np.eye(dimension)
+    return tuple(
+        Mode("slip", tuple((sign * axis).tolist())) for axis in axes for sign in (1.0, -1.0)
+    )
 
 
 @dataclass(frozen=True, slots=True)
