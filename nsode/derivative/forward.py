@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -17,10 +17,20 @@ from nsode.expr import (
     Name,
     Number,
     add,
+    children,
     multiply,
     negate,
 )
-from nsode.ode import Binding, Definition, LinearSolve, Rate, SetValuedTerm, System, defined
+from nsode.ode import (
+    Binding,
+    Definition,
+    LinearSolve,
+    Rate,
+    SetValuedTerm,
+    System,
+    defined,
+    expressions,
+)
 
 Direction = Callable[[Name], Expr | None]
 
@@ -102,6 +112,7 @@ def time_derivatives(
     motion = _Motion.of(system)
     derived = []
     for state, value, span in ((row.state, row.value, row.range) for row in rows):
+        motion.prepare(value)
         moving = tangent(value, motion.along, _variables(span))
         derived.append(Row(state, moving or ZERO, span))
     return tuple(motion.emitted), tuple(derived)
@@ -115,11 +126,28 @@ class _Motion:
     rates: Mapping[str, Binding]
     known: dict[str, Expr | None] = field(default_factory=dict)
     emitted: list[Definition] = field(default_factory=list)
+    rank: dict[str, int] = field(default_factory=dict)
 
     @classmethod
     def of(cls, system: System) -> _Motion:
         definitions = {name: item for item in system.bindings for name in defined(item)}
-        return cls(definitions, merged_rates(system.rates))
+        rank = {name: k for k, name in enumerate(definitions)}
+        return cls(definitions, merged_rates(system.rates), rank=rank)
+
+    def prepare(self, value: Expr) -> None:
+        """Derive what a value rests on, in order, so that nothing recurses through names."""
+        found: set[str] = set()
+        waiting = [value]
+        while waiting:
+            for name in _derived(waiting.pop()):
+                item = self.definitions.get(name)
+                if item is None or isinstance(item, SetValuedTerm):
+                    continue
+                if name not in found and name not in self.known:
+                    found.add(name)
+                    waiting.extend(expressions(item))
+        for name in sorted(found, key=self.rank.__getitem__):
+            self.along(Name(name))
 
     def along(self, name: Name) -> Expr | None:
         if name.id == TIME:
@@ -169,6 +197,19 @@ class _Motion:
         self.emitted.append(replace(solve, unknowns=moved, right=tuple(right)))
         at = Index(solve.range.variable) if solve.range else None
         self.known |= {u: Name(dot, at) for u, dot in zip(solve.unknowns, moved, strict=True)}
+
+
+def _derived(expr: Expr) -> Iterator[str]:
+    """Yield the names whose derivatives that of an expression needs: conditions have none."""
+    stack = [expr]
+    while stack:
+        match stack.pop():
+            case Name(id):
+                yield id
+            case If(_, then, otherwise):
+                stack.extend((then, otherwise))
+            case node:
+                stack.extend(children(node))
 
 
 def _variables(span: IndexRange | None) -> frozenset[str]:
