@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 
-#: Later stages walk a tree by recursion, and compilers of C and Python bound how deep
-#: brackets nest: at this depth all of them still work, with room for the caller's own stack.
-DEEPEST = 128
+#: Later stages walk a tree by recursion, some seven of Python's 1000 frames to a level, and
+#: compilers bound how deep brackets nest. This depth works everywhere, 200 frames below the top.
+DEEPEST = 100
 
 
 @dataclass(frozen=True, slots=True)

@@ -153,12 +153,13 @@ def _parse_statement(statement: StatementTokens, limits: Limits) -> ast.Statemen
     return tree
 
 
-def in_order(errors: Sequence[Diagnostic], limits: Limits) -> list[Diagnostic]:
-    """Return the errors by place, as many as the limit allows."""
-    ordered = sorted(errors, key=lambda e: e.labels[0].span.start if e.labels else 0)
-    kept = ordered[: limits.errors]
-    if len(ordered) > len(kept):
-        more = f"{len(ordered) - len(kept)} further errors are not shown"
-        way_out = limits.raised("errors", len(ordered))
-        kept[-1] = replace(kept[-1], notes=(*kept[-1].notes, f"{more}: {way_out}"))
-    return kept
+def in_order(found: Sequence[Diagnostic], limits: Limits) -> list[Diagnostic]:
+    """Return what was found by place; of too many errors the first alone, without warnings."""
+    ordered = sorted(found, key=lambda d: d.labels[0].span.start if d.labels else 0)
+    errors = [diagnostic for diagnostic in ordered if diagnostic.severity == "error"]
+    if len(errors) <= limits.errors:
+        return ordered
+    *kept, last = errors[: limits.errors]
+    more = f"{len(errors) - limits.errors} further errors are not shown"
+    note = f"{more}: {limits.raised('errors', len(errors))}"
+    return [*kept, replace(last, notes=(*last.notes, note))]
