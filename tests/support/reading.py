@@ -7,7 +7,12 @@ from collections.abc import Mapping
 import nsode
 from nsode.diagnostics import ModelError
 from nsode.expr import Call, Expr, If, Index, Name, Number, Sum
+from nsode.inclusion.build import build
 from nsode.ode import AugmentedODE, LinearSolve, SetValuedTerm, element_names, size
+from nsode.rewrite import rewrite
+from nsode.rewrite.start import at_start
+from nsode.source import Source
+from nsode.syntax import parse
 from support.running import Tracer
 
 
@@ -40,10 +45,18 @@ def compiled(*lines: str) -> nsode.Model:
     return nsode.loads("model test\n" + "\n".join(lines) + "\n")
 
 
+def built(*lines: str) -> AugmentedODE:
+    """Return the ODE of some lines without the remarks of the analysis."""
+    source = Source("test", "model test\n" + "\n".join(lines) + "\n")
+    ode = rewrite(build(parse(source))[0])
+    at_start(ode)
+    return ode
+
+
 def refused(*lines: str) -> list[str]:
     """Return the codes of the errors that some lines get, in the order of the text."""
     try:
-        compiled(*lines)
+        built(*lines)
     except ModelError as error:
         return [d.code for d in error.diagnostics if d.severity == "error"]
     return []

@@ -74,9 +74,7 @@ class Twins:
             self.elements.append(f"{declaration.format(f'_{k}')} = {value(k)}")
 
     def _row(self, left: Written, right: Written) -> None:
-        self.family.append(
-            f"for i in {self.first}..{self.last}: {left(None)} = {right(None)}"
-        )
+        self.family.append(f"for i in {self.first}..{self.last}: {left(None)} = {right(None)}")
         self.elements.extend(f"{left(k)} = {right(k)}" for k in self._range())
 
     def _range(self) -> range:
@@ -89,7 +87,9 @@ class Twins:
         values = [self._number(-1, 1) for _ in self._range()]
         if self.random.random() < 0.5:
             listed = ", ".join(values)
-            self._each("parameter k{}", lambda k: f"[{listed}]" if k is None else values[k - self.first])
+            self._each(
+                "parameter k{}", lambda k: f"[{listed}]" if k is None else values[k - self.first]
+            )
         else:
             self._each("parameter k{}", lambda k: f"0.3*{'i' if k is None else k} - 1")
         self.families.append("k")
@@ -134,7 +134,9 @@ class Twins:
 
     def _equations(self) -> None:
         plain = self._expression(self.depth)
-        self._row(lambda k: f"der({_element('x', k)})", lambda k: f"{plain(k)} + {_element('F', k)}")
+        self._row(
+            lambda k: f"der({_element('x', k)})", lambda k: f"{plain(k)} + {_element('F', k)}"
+        )
         coupling, right, left = (self._expression(1) for _ in range(3))
         small = lambda k: f"tanh({coupling(k)})"  # noqa: E731
         self._row(

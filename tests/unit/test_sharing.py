@@ -156,6 +156,9 @@ def test_a_negative_argument_turns_the_auxiliary_state_and_nothing_else() -> Non
     plain, turned = (compiled(*HEAD, f"der(v) = {f}") for f in ("-mu*sgn(v)", "mu*sgn(-v)"))
     for sample in SAMPLES:
         for a in (-4e-4, 0.0, 1e-4):
-            one, other = rates(plain, sample | {"sgn1.a": a}), rates(turned, sample | {"sgn1.a": -a})
+            one, other = (
+                rates(plain, sample | {"sgn1.a": a}),
+                rates(turned, sample | {"sgn1.a": -a}),
+            )
             assert one["v"] == other["v"]
             assert one["sgn1.a"] == -other["sgn1.a"]
