@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from operator import is_
 from typing import NamedTuple
 
 from nsode.source import NOWHERE, Span
@@ -160,7 +161,7 @@ def walk(expr: Expr) -> Iterator[Expr]:
     while stack:
         node = stack.pop()
         yield node
-        stack.extend(reversed(children(node)))
+        stack += children(node)[::-1]
 
 
 def names(expr: Expr) -> Iterator[Name]:
@@ -173,10 +174,8 @@ def rebuild(expr: Expr, change: Callable[[Expr], Expr]) -> Expr:
     match expr:
         case Call(function, args):
             changed = tuple([change(arg) for arg in args])
-            for new, old in zip(changed, args, strict=True):
-                if new is not old:
-                    return Call(function, changed, span=expr.span)
-            return expr
+            same = all(map(is_, changed, args))
+            return expr if same else Call(function, changed, span=expr.span)
         case If(condition, then, otherwise):
             c, a, b = change(condition), change(then), change(otherwise)
             if c is condition and a is then and b is otherwise:

@@ -68,8 +68,18 @@ def describe(ode: AugmentedODE, options: Options) -> Record:
 
 
 def render(ode: AugmentedODE, options: Options) -> str:
-    """Return the description as JSON text."""
-    return json.dumps(describe(ode, options), indent=2, allow_nan=False) + "\n"
+    """Return the description as JSON text, with a line for each item of a list."""
+    entries = (f'  "{key}": {_lines(value)}' for key, value in describe(ode, options).items())
+    return "{\n" + ",\n".join(entries) + "\n}\n"
+
+
+def _lines(value: object) -> str:
+    if not isinstance(value, list) or not value:
+        return _on_one_line(value)
+    return "[\n    " + ",\n    ".join(map(_on_one_line, value)) + "\n  ]"
+
+
+_on_one_line = json.JSONEncoder(allow_nan=False).encode
 
 
 def _placed(items: Sequence[_Item]) -> list[tuple[_Item, Slot]]:

@@ -13,8 +13,8 @@ Where a function has a kink, the derivative is that of one side, and always fini
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Container, Iterator
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, negate, rebuild, walk
@@ -37,7 +37,9 @@ class Partial(NamedTuple):
     where: tuple[Expr, ...] = ()
 
 
-def partials(expr: Expr, taken: frozenset[str] = frozenset()) -> list[Partial]:
+def partials(
+    expr: Expr, taken: frozenset[str] = frozenset(), by: Container[str] | None = None
+) -> list[Partial]:
     """Return the derivative of ``expr`` by each name in it, in the order of the text.
 
     Parameters
@@ -46,35 +48,56 @@ def partials(expr: Expr, taken: frozenset[str] = frozenset()) -> list[Partial]:
         A scalar expression.
     taken : frozenset of str
         Index variables in use outside ``expr``; sums inside it are given others.
+    by : container of str
+        The names to derive by; all unless given.
     """
-    found: list[Partial] = []
-    _descend(Partial(Name(""), ONE), expr, taken, found)
-    return found
+    descent = _Descent(by)
+    descent.into(expr, ONE, (), (), taken)
+    return descent.found
 
 
-def _descend(path: Partial, expr: Expr, taken: frozenset[str], found: list[Partial]) -> None:
-    match expr:
-        case Number() | Index():
-            return
-        case Name():
-            found.append(path._replace(name=expr))
-        case If(condition, then, otherwise):
-            _descend(path._replace(where=(*path.where, condition)), then, taken, found)
-            refuted = Call("not", (condition,))
-            _descend(path._replace(where=(*path.where, refuted)), otherwise, taken, found)
-        case Sum(span, body):
-            fresh = fresh_range(span, taken)
-            inner = shifted(body, span.variable, Index(fresh.variable))
-            within = path._replace(over=(*path.over, fresh))
-            _descend(within, inner, taken | {fresh.variable}, found)
-        case Call():
-            for argument, slope, where in slopes(expr):
-                deeper = path._replace(
-                    coefficient=times(path.coefficient, slope), where=(*path.where, *where)
-                )
-                _descend(deeper, argument, taken, found)
-        case _:
-            raise NotImplementedError(f"no derivative of {type(expr).__name__}")
+@dataclass(slots=True)
+class _Descent:
+    """A way down an expression, with what the derivatives below are multiplied by."""
+
+    by: Container[str] | None
+    found: list[Partial] = field(default_factory=list)
+
+    def into(
+        self,
+        expr: Expr,
+        factor: Expr,
+        over: tuple[IndexRange, ...],
+        where: tuple[Expr, ...],
+        taken: frozenset[str],
+    ) -> None:
+        match expr:
+            case Name():
+                if not self.ignores(expr):
+                    self.found.append(Partial(expr, factor, over, where))
+            case Call():
+                for argument, slope, condition in slopes(expr):
+                    if not self.ignores(argument):
+                        deeper = times(factor, slope)
+                        self.into(argument, deeper, over, where + condition, taken)
+            case Number() | Index():
+                return
+            case If(condition, then, otherwise):
+                self.into(then, factor, over, (*where, condition), taken)
+                refuted = Call("not", (condition,))
+                self.into(otherwise, factor, over, (*where, refuted), taken)
+            case Sum(span, body):
+                fresh = fresh_range(span, taken)
+                inner = shifted(body, span.variable, Index(fresh.variable))
+                self.into(inner, factor, (*over, fresh), where, taken | {fresh.variable})
+            case _:
+                raise NotImplementedError(f"no derivative of {type(expr).__name__}")
+
+    def ignores(self, expr: Expr) -> bool:
+        """Tell whether an expression is a number or a name that is not derived by."""
+        if isinstance(expr, Name):
+            return self.by is not None and expr.id not in self.by
+        return isinstance(expr, Number)
 
 
 Slope = tuple[Expr, Expr, tuple[Expr, ...]]
@@ -82,28 +105,28 @@ Slope = tuple[Expr, Expr, tuple[Expr, ...]]
 
 def slopes(call: Call) -> Iterator[Slope]:
     """Yield each argument, the derivative by it, and the conditions under which that holds."""
-    match call:
-        case Call("+", terms):
+    match call.function, call.args:
+        case "+", terms:
             yield from ((term, ONE, ()) for term in terms)
-        case Call("neg", (a,)):
+        case "neg", (a,):
             yield a, Number(-1.0), ()
-        case Call("*", (a, b)):
+        case "*", (a, b):
             yield a, b, ()
             yield b, a, ()
-        case Call("/", (a, b)):
+        case "/", (a, b):
             yield a, _call("/", ONE, b), ()
             yield b, negate(_call("/", call, b)), ()
-        case Call("^", (a, b)):
+        case "^", (a, b):
             yield from _power(call, a, b)
-        case Call("norm", components):
+        case "norm", components:
             positive = (_call(">", call, ZERO),)
             yield from ((a, _call("/", a, call), positive) for a in components)
-        case Call("max" | "min" | "sat" | "shrink" | "atan2" | "mod", (a, b)):
+        case "max" | "min" | "sat" | "shrink" | "atan2" | "mod", (a, b):
             yield from _of_two(call, a, b)
-        case Call(function, (a,)) if function not in _CONDITIONS:
-            yield from _of_one(call, a)
-        case Call(function) if function in _CONDITIONS:
+        case function, _ if function in _CONDITIONS:
             return
+        case _, (a,):
+            yield from _of_one(call, a)
         case _:
             raise NotImplementedError(f"no derivative of `{call.function}`")
 
@@ -195,13 +218,10 @@ def _call(function: str, *args: Expr) -> Call:
 
 def times(left: Expr, right: Expr) -> Expr:
     """Return ``left*right``, where a factor of 1 or -1 leaves no trace."""
-    match left, right:
-        case (Number(1.0), other) | (other, Number(1.0)):
-            return other
-        case (Number(-1.0), other) | (other, Number(-1.0)):
-            return negate(other)
-        case _:
-            return _call("*", left, right)
+    for factor, other in ((left, right), (right, left)):
+        if isinstance(factor, Number) and abs(factor.value) == 1.0:
+            return other if factor.value > 0 else negate(other)
+    return _call("*", left, right)
 
 
 def guarded(conditions: tuple[Expr, ...], value: Expr) -> Expr:

@@ -109,7 +109,7 @@ def linearize(
     columns : collection of str
         Names of states, inputs, parameters or multipliers.
     """
-    chain = _Chain(frozenset(columns))
+    chain = _Chain(frozenset(columns), set(columns))
     for item in definitions:
         chain.define(item)
     entries = [entry for row in rows for entry in chain.entries(row)]
@@ -118,9 +118,10 @@ def linearize(
 
 @dataclass(slots=True)
 class _Chain:
-    """The chain rule, one definition after the other."""
+    """The chain rule, one definition after the other; ``moving`` depends on a column."""
 
     columns: frozenset[str]
+    moving: set[str]
     known: dict[str, list[_Dependence]] = field(default_factory=dict)
     variables: dict[str, str | None] = field(default_factory=dict)
     spreads: dict[str, list[_Spread]] = field(default_factory=dict)
@@ -146,6 +147,8 @@ class _Chain:
         if spread:
             self._add_hub(name, spread, span)
             self.known[name].append(_Dependence(_own(name, span), ONE))
+        if self.known[name]:
+            self.moving.add(name)
 
     def _parted(self, name: str, value: Expr, span: IndexRange | None) -> Expr:
         """Return a value whose larger arguments have become definitions of their own."""
@@ -161,11 +164,7 @@ class _Chain:
         return with_parts(value, named, self._varies)
 
     def _varies(self, expr: Expr) -> bool:
-        """Tell whether an expression depends on a column, or may through a sum."""
-        return any(
-            name.id in self.columns or self.known.get(name.id) or name.id in self.spreads
-            for name in names(expr)
-        )
+        return any(name.id in self.moving for name in names(expr))
 
     def _derive(
         self, value: Expr, span: IndexRange | None
@@ -174,7 +173,7 @@ class _Chain:
         bands: dict[Name, list[Expr]] = {}
         spread: list[_Spread] = []
         taken = frozenset({span.variable}) if span else frozenset()
-        for partial in partials(value, taken):
+        for partial in partials(value, taken, self.moving):
             for key, inner in self._through(partial.name):
                 term = guarded(partial.where, times(partial.coefficient, inner))
                 kept, summed_up = _split(partial, key)
@@ -246,6 +245,7 @@ class _Chain:
         self.emitted.append(LinearSolve(labels, solve.matrix, right, solve.range, span=solve.span))
         for unknown, label in zip(solve.unknowns, labels, strict=True):
             self.known[unknown].append(_Dependence(key, _own(label, solve.range)))
+            self.moving.add(unknown)
 
     def entries(self, row: Row | Rate) -> Iterator[Entry]:
         value = self._parted(f"{row.state}.rate", row.value, row.range)
@@ -348,15 +348,22 @@ def _spots(
     """Return ``column*height + row`` of each value in the order of the loops, or -1."""
     import numpy as np
 
-    grids = np.meshgrid(
-        *(np.arange(span.first, span.last + 1) for span in entry.ranges), indexing="ij"
-    )
-    at = {span.variable: grid.ravel() for span, grid in zip(entry.ranges, grids, strict=True)}
-    count = prod(len(span) for span in entry.ranges)
+    at = _grid(entry.ranges)
     row, row_fits = _place(rows[entry.row.id], entry.row.at, at)
     column, column_fits = _place(columns[entry.column.id], entry.column.at, at)
-    spots = np.where(row_fits & column_fits, column * height + row, -1)
-    return np.broadcast_to(spots, (count,))
+    spot, fits = column * height + row, row_fits & column_fits
+    if not entry.ranges:
+        return np.array([spot if fits else -1])
+    return np.broadcast_to(np.where(fits, spot, -1), prod(map(len, entry.ranges)))
+
+
+def _grid(ranges: tuple[IndexRange, ...]) -> dict[str, NDArray[np.int64]]:
+    """Return the value of each index in the order of the loops."""
+    import numpy as np
+
+    values = (np.arange(span.first, span.last + 1) for span in ranges)
+    grids = np.meshgrid(*values, indexing="ij") if ranges else ()
+    return {span.variable: grid.ravel() for span, grid in zip(ranges, grids, strict=True)}
 
 
 def _place(

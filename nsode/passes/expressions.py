@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from nsode.expr import Expr
-from nsode.ode import AugmentedODE, Binding, Definition, LinearSolve
+from nsode.ode import AugmentedODE, Binding, Definition, LinearSolve, Rate
 
 Change = Callable[[Expr], Expr]
 
@@ -20,8 +20,8 @@ def map_expressions(ode: AugmentedODE, change: Change) -> AugmentedODE:
             for p in ode.parameters
         ),
         states=tuple(replace(s, initial=change(s.initial)) for s in ode.states),
-        bindings=tuple(_definition(item, change) for item in ode.bindings),
-        rates=tuple(replace(r, value=change(r.value)) for r in ode.rates),
+        bindings=tuple(map_definition(item, change) for item in ode.bindings),
+        rates=tuple(map_rate(rate, change) for rate in ode.rates),
         outputs=tuple(replace(o, value=change(o.value)) for o in ode.outputs),
         checks=tuple(replace(c, condition=change(c.condition)) for c in ode.checks),
         auxiliary=tuple(
@@ -30,10 +30,18 @@ def map_expressions(ode: AugmentedODE, change: Change) -> AugmentedODE:
     )
 
 
-def _definition(item: Definition, change: Change) -> Definition:
+def map_rate(rate: Rate, change: Change) -> Rate:
+    """Return a rate with ``change`` applied to its value; itself if that changes nothing."""
+    value = change(rate.value)
+    return rate if value is rate.value else replace(rate, value=value)
+
+
+def map_definition(item: Definition, change: Change) -> Definition:
+    """Return a definition with ``change`` applied to every expression in it."""
     match item:
         case Binding():
-            return replace(item, value=change(item.value))
+            value = change(item.value)
+            return item if value is item.value else replace(item, value=value)
         case LinearSolve():
             return replace(
                 item,

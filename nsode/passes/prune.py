@@ -2,39 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 from nsode.expr import Expr, Name, children
 from nsode.ode import AugmentedODE, Definition, Placed, defined, expressions
+
+_Definition = TypeVar("_Definition", bound=Definition)
 
 
 def reads(*exprs: Expr) -> set[str]:
     """Return every name that some expressions read, families by their one name."""
     found: set[str] = set()
-    for expr in exprs:
-        _gather(expr, found)
+    stack = list(exprs)
+    while stack:
+        expr = stack.pop()
+        if isinstance(expr, Name):
+            found.add(expr.id)
+        else:
+            stack += children(expr)
     return found
 
 
-def _gather(expr: Expr, found: set[str]) -> None:
-    if isinstance(expr, Name):
-        found.add(expr.id)
-    for child in children(expr):
-        _gather(child, found)
+def definition_reads(item: Definition) -> set[str]:
+    """Return every name that a definition reads."""
+    return reads(*expressions(item))
 
 
-
-
-def needed(bindings: Sequence[Definition], wanted: set[str]) -> tuple[Definition, ...]:
+def needed(
+    bindings: Sequence[_Definition],
+    wanted: set[str],
+    reads_of: Callable[[_Definition], set[str]] = definition_reads,
+) -> tuple[_Definition, ...]:
     """Return the bindings that the wanted names rest on, in order.
 
-    ``wanted`` grows by what these bindings read.
+    ``wanted`` grows by what these bindings read; ``reads_of`` may know that already.
     """
     kept = []
     for item in reversed(bindings):
         if not wanted.isdisjoint(defined(item)):
-            wanted |= reads(*expressions(item))
+            wanted |= reads_of(item)
             kept.append(item)
     return tuple(reversed(kept))
 
@@ -98,7 +106,7 @@ def _dependencies(ode: AugmentedODE) -> dict[str, set[str]]:
     """Return what each binding reads, and each state for its rate and its start."""
     graph: dict[str, set[str]] = {}
     for item in ode.bindings:
-        behind = reads(*expressions(item))
+        behind = definition_reads(item)
         for name in defined(item):
             graph.setdefault(name, set()).update(behind)
     for state in ode.states:

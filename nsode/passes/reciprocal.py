@@ -10,9 +10,9 @@ from collections.abc import Collection
 from dataclasses import replace
 from math import frexp, isfinite
 
-from nsode.expr import Call, Expr, If, Index, Name, Number, children, rebuild
+from nsode.expr import Call, Expr, If, Index, Name, Number, rebuild
 from nsode.ode import AugmentedODE
-from nsode.passes.expressions import map_expressions
+from nsode.passes.expressions import map_definition, map_rate
 
 
 def multiply_by_reciprocals(ode: AugmentedODE) -> AugmentedODE:
@@ -23,8 +23,15 @@ def multiply_by_reciprocals(ode: AugmentedODE) -> AugmentedODE:
     of parameters alone, which a compiler takes out of the loop by itself.
     """
     fixed = {item.name for item in ode.parameters if item.range is None}
-    changed = map_expressions(ode, lambda expr: _change(expr, fixed))
-    return replace(ode, bindings=changed.bindings, rates=changed.rates)
+
+    def change(expr: Expr) -> Expr:
+        return _change(expr, fixed)
+
+    return replace(
+        ode,
+        bindings=tuple(map_definition(item, change) for item in ode.bindings),
+        rates=tuple(map_rate(item, change) for item in ode.rates),
+    )
 
 
 def _change(expr: Expr, fixed: Collection[str]) -> Expr:
@@ -55,6 +62,6 @@ def _is_fixed(expr: Expr, fixed: Collection[str]) -> bool:
         case Number() | Index(None, _):
             return True
         case Call():
-            return all(_is_fixed(child, fixed) for child in children(expr))
+            return all(_is_fixed(arg, fixed) for arg in expr.args)
         case _:
             return False

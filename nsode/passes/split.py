@@ -24,9 +24,21 @@ from nsode.expr import (
     Sum,
     add,
     children,
+    names,
     rebuild,
+    walk,
 )
-from nsode.ode import AugmentedODE, Binding, Check, Definition, LinearSolve, Rate
+from nsode.ode import (
+    AugmentedODE,
+    Binding,
+    Check,
+    Definition,
+    LinearSolve,
+    Output,
+    Rate,
+    State,
+)
+from nsode.passes.expressions import map_definition, map_rate
 
 #: One element of the piece at hand, for each index variable in scope.
 Sample = Mapping[str, int]
@@ -77,13 +89,14 @@ def settle(expr: Expr) -> Expr:
 
 def _is_settled(expr: Expr) -> bool:
     """Whether there is nothing to decide: most expressions, so they are not rebuilt."""
-    match expr:
-        case Call(function, args):
-            return not FUNCTIONS[function].boolean and all(map(_is_settled, args))
-        case If() | Sum():
-            return False
-        case _:
-            return True
+    for node in walk(expr):
+        match node:
+            case Sum():
+                return False
+            case Call() if node.function in _COMPARISONS:
+                if not any(True for _ in names(node)):  # else it is no matter of indices
+                    return False
+    return True
 
 
 def split(ode: AugmentedODE) -> AugmentedODE:
@@ -98,20 +111,17 @@ def split(ode: AugmentedODE) -> AugmentedODE:
         bindings=tuple(chain.from_iterable(map(_split_definition, ode.bindings))),
         rates=tuple(chain.from_iterable(map(_split_rate, ode.rates))),
         checks=tuple(chain.from_iterable(map(split_check, ode.checks))),
-        states=tuple(replace(s, initial=_whole(s.range, s.initial)) for s in ode.states),
-        outputs=tuple(replace(y, value=_whole(y.range, y.value)) for y in ode.outputs),
+        states=tuple(map(_split_state, ode.states)),
+        outputs=tuple(map(_split_output, ode.outputs)),
     )
 
 
 def _split_definition(item: Definition) -> Iterable[Definition]:
     match item:
-        case Binding(value=value, range=None):
-            return [replace(item, value=settle(value))]
+        case Binding(range=None) | LinearSolve(range=None):
+            return [map_definition(item, settle)]
         case Binding(value=value, range=IndexRange() as over):
             return [replace(item, range=r, value=v) for r, (v,) in pieces(over, value)]
-        case LinearSolve(matrix=matrix, right=right, range=None):
-            rows = tuple(tuple(map(settle, row)) for row in matrix)
-            return [replace(item, matrix=rows, right=tuple(map(settle, right)))]
         case LinearSolve(range=IndexRange() as over):
             return [_rows(item, r, entries) for r, entries in _solve_pieces(item, over)]
         case _:
@@ -132,19 +142,30 @@ def _rows(solve: LinearSolve, over: IndexRange, entries: tuple[Expr, ...]) -> Li
 
 def _split_rate(rate: Rate) -> Iterable[Rate]:
     if rate.range is None:
-        return [replace(rate, value=settle(rate.value))]
+        return [map_rate(rate, settle)]
     return [replace(rate, range=r, value=v) for r, (v,) in pieces(rate.range, rate.value)]
+
+
+def _split_state(state: State) -> State:
+    initial = _whole(state.range, state.initial)
+    return state if initial is state.initial else replace(state, initial=initial)
+
+
+def _split_output(output: Output) -> Output:
+    value = _whole(output.range, output.value)
+    return output if value is output.value else replace(output, value=value)
 
 
 def split_check(check: Check) -> list[Check]:
     """Return the pieces of a check; those that indices alone fulfil vanish."""
     if check.range is None:
-        found = [replace(check, condition=settle(check.condition))]
+        condition = settle(check.condition)
+        found = [check if condition is check.condition else replace(check, condition=condition)]
     else:
         found = [
             replace(check, range=r, condition=c) for r, (c,) in pieces(check.range, check.condition)
         ]
-    return [item for item in found if item.condition != _literal(True)]
+    return [item for item in found if item.condition != _TRUE]
 
 
 def _whole(over: IndexRange | None, value: Expr) -> Expr:
@@ -208,7 +229,9 @@ def _resolve(expr: Expr, sample: Sample) -> Expr:
             return _resolve_sum(expr, sample)
         case Call(function) if FUNCTIONS[function].boolean:
             decided = _decide(expr, sample)
-            return _literal(decided) if isinstance(decided, bool) else decided
+            if isinstance(decided, bool):
+                return _TRUE if decided else _FALSE
+            return decided
         case _:
             return rebuild(expr, lambda child: _resolve(child, sample))
 
@@ -265,8 +288,7 @@ def _compare(function: str, left: Expr, right: Expr, sample: Sample) -> bool | N
     }[function]
 
 
-def _literal(truth: bool) -> Expr:
-    return Call("<=", (Number(0.0), Number(0.0 if truth else -1.0)))
+_TRUE, _FALSE = (Call("<=", (Number(0.0), Number(right))) for right in (0.0, -1.0))
 
 
 def _difference(left: Expr, right: Expr) -> _Affine | None:

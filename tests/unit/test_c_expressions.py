@@ -60,7 +60,7 @@ def text(expr):
         (call("^", X, -1), "1/x"),
         (call("^", plus(X, Y), 2), "square(x + y)"),
         (call("^", X, 5), "power(x, 5)"),
-        (call("^", X, 0), "1"),
+        (call("^", X, 0), "pow(x, (real)0)"),
         (call("^", X, 9), "pow(x, (real)9)"),
         (call("^", X, 0.5), "sqrt(x)"),
         (call("max", 0, X), "max0(x)"),

@@ -1,7 +1,7 @@
 """What shares a loop, and what is kept in an array."""
 
 from nsode.backends import Options
-from nsode.backends.c.plan import Store, plan
+from nsode.backends.c.plan import Readings, Store, plan
 from nsode.backends.c.program import program
 from nsode.backends.c.work import rates
 from nsode.expr import Index, IndexRange, Name, Sum
@@ -17,7 +17,7 @@ def at(name, offset=0):
 
 def shape(works):
     """The range of each group with the names that it defines or stores."""
-    made = plan(works)
+    made = plan(works, Readings())
     return [
         (
             None if group.range is None else (group.range.first, group.range.last),
@@ -87,7 +87,7 @@ def test_two_names_of_one_index_share_a_loop():
 
 
 def test_the_column_is_three_pieces_of_contacts_and_one_loop_of_balls():
-    made = plan(rates(program(column(100), Options())))
+    made = plan(rates(program(column(100), Options())), Readings())
     assert [(g.range.first, g.range.last) for g in made.groups] == [
         (0, 0), (1, 99), (100, 100), (1, 100)
     ]  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import copysign, isinf, isnan
+from math import copysign, isfinite, isnan
 from typing import NamedTuple, Protocol
 
 from nsode.expr import Call, Expr, If, Index, Name, Number, Sum
@@ -75,24 +75,27 @@ _LARGEST_PRODUCT = 8  # beyond, repeated multiplication loses more than pow does
 
 def number(value: float, scope: Scope | None = None) -> Code:
     """Return a literal: a small whole number as it is, any other under a cast to real."""
-    if isnan(value) or isinf(value):
-        if scope is not None:
-            scope.use("NAN")
-        sign = "-" if value < 0 else ""
-        return Code(f"(real){sign}{'NAN' if isnan(value) else 'INFINITY'}", _UNARY)
-    if value.is_integer() and abs(value) <= _LARGEST_PLAIN and copysign(1.0, value) > 0:
-        return Code(str(int(value)), _PRIMARY, whole=True)
-    if value.is_integer() and -_LARGEST_PLAIN <= value < 0:
-        return Code(str(int(value)), _UNARY, whole=True)
-    return Code(f"(real){value!r}", _UNARY)
+    if value.is_integer() and abs(value) <= _LARGEST_PLAIN:
+        if value < 0:
+            return Code(str(int(value)), _UNARY, whole=True)
+        if copysign(1.0, value) > 0:
+            return Code(str(int(value)), _PRIMARY, whole=True)
+    if isfinite(value):
+        return Code(f"(real){value!r}", _UNARY)
+    if scope is not None:
+        scope.use("NAN")
+    sign = "-" if value < 0 else ""
+    return Code(f"(real){sign}{'NAN' if isnan(value) else 'INFINITY'}", _UNARY)
 
 
 def _code(expr: Expr, scope: Scope) -> Code:
     match expr:
-        case Number(value):
-            return number(value, scope)
         case Name():
             return Code(scope.name(expr), _PRIMARY)
+        case Call():
+            return _call(expr.function, expr.args, scope)
+        case Number():
+            return number(expr.value, scope)
         case Index(variable=None, offset=offset):
             return number(float(offset), scope)
         case Index():
@@ -102,33 +105,31 @@ def _code(expr: Expr, scope: Scope) -> Code:
             return _choice(*(_code(part, scope) for part in (test, then, otherwise)))
         case Sum():
             return Code(scope.sum(expr), _PRIMARY)
-        case Call():
-            return _call(expr, scope)
         case _:
             raise NotImplementedError(f"no C for {type(expr).__name__}")
 
 
-def _call(expr: Call, scope: Scope) -> Code:
-    match expr:
-        case Call("+", terms):
-            return _sum(terms, scope)
-        case Call("neg", (inner,)):
-            return _negative(_code(inner, scope))
-        case Call("*" | "/" as operator, (left, right)):
-            return _product(operator, _code(left, scope), _code(right, scope))
-        case Call("^", (base, exponent)):
-            return _power(base, exponent, scope)
-        case Call("not", (inner,)):
-            return Code("!" + _parenthesized(_code(inner, scope)), _UNARY)
-        case Call(function, (left, right)) if function in _BOOLEAN:
+def _call(function: str, args: tuple[Expr, ...], scope: Scope) -> Code:
+    match function:
+        case "+":
+            return _sum(args, scope)
+        case "neg":
+            return _negative(_code(args[0], scope))
+        case "*" | "/":
+            return _product(function, _code(args[0], scope), _code(args[1], scope))
+        case "^":
+            return _power(args[0], args[1], scope)
+        case "not":
+            return Code("!" + _parenthesized(_code(args[0], scope)), _UNARY)
+        case _ if function in _BOOLEAN:
             sign, level = _BOOLEAN[function]
-            sides = (_inside(_code(side, scope), _SUM) for side in (left, right))
+            sides = (_inside(_code(side, scope), _SUM) for side in args)
             return Code(f" {sign} ".join(sides), level)
-        case Call(function, (left, right)) if function in _LOGICAL:
+        case _ if function in _LOGICAL:
             sign, level = _LOGICAL[function]
-            sides = (_logical(_code(side, scope), level) for side in (left, right))
+            sides = (_logical(_code(side, scope), level) for side in args)
             return Code(f" {sign} ".join(sides), level)
-        case Call(function, args):
+        case _:
             return _function(function, args, scope)
 
 
@@ -202,8 +203,8 @@ def _sum(terms: tuple[Expr, ...], scope: Scope) -> Code:
 def _term(term: Expr, scope: Scope) -> tuple[bool, Code]:
     """Return whether a term is subtracted, and what."""
     match term:
-        case Call("neg", (inner,)):
-            return True, _code(inner, scope)
+        case Call() if term.function == "neg":
+            return True, _code(term.args[0], scope)
         case Number(value) if value < 0:
             return True, number(-value, scope)
         case _:
@@ -245,7 +246,7 @@ def _power(base: Expr, exponent: Expr, scope: Scope) -> Code:
         return _library("sqrt", (base,), scope) if value == 0.5 else _pow(base, exponent, scope)
     whole = abs(int(value))
     if whole == 0:
-        return number(1.0)
+        return _pow(base, exponent, scope)  # which is 1, and reads its base
     raised = _raised(base, whole, scope)
     return raised if value > 0 else _product("/", number(1.0), _real(raised))
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from textwrap import wrap
+from itertools import starmap
 
 from nsode.backends.c import jacobian, solve
 from nsode.backends.c.expressions import condition, lower
 from nsode.backends.c.plan import Group, Plan, Require, Scatter, Store, Work, plan
 from nsode.backends.c.program import Program, Text, Vector
-from nsode.expr import TIME, Expr, Index, IndexRange, Name, Sum
+from nsode.expr import Expr, Index, IndexRange, Name, Sum
 from nsode.ode import Binding, LinearSolve
 
 _LOOP_VARIABLES = "ijk"
@@ -23,7 +23,7 @@ def body(program: Program, works: Iterable[Work]) -> list[str]:
 
     The function has ``t``, ``x``, ``u`` and ``p``; values over ranges are in pieces.
     """
-    writer = Writer(program, plan(works))
+    writer = Writer(program, plan(works, program.readings))
     for group in writer.plan.groups:
         writer.group(group)
     return [*writer.preamble(), *writer.lines]
@@ -36,7 +36,6 @@ class Writer:
     program: Program
     plan: Plan
     lines: list[str] = field(default_factory=list)
-    loads: dict[tuple[int, int], str] = field(default_factory=dict)
     indices: dict[str, str | int] = field(default_factory=dict)
     depth: int = 1
     loops: int = 0
@@ -50,19 +49,33 @@ class Writer:
 
     def preamble(self) -> list[str]:
         """Return what stands at the top: values read, then arrays of the function."""
-        names = self.program.bindings
+        names = self.program.locals
         arrays = [f"    real {names[b]}[{len(over)}];" for b, over in self.plan.stored.items()]
-        return [*(f"    {self.loads[place]}" for place in sorted(self.loads)), *arrays]
+        return [*starmap(self._load, self._loaded()), *arrays]
+
+    def _loaded(self) -> Iterator[tuple[Vector, str]]:
+        """Yield what the function reads of x, u and p."""
+        for vector in self.program.loaded:
+            for name in vector.slots:
+                if name in self.plan.read:
+                    yield vector, name
+
+    def _load(self, vector: Vector, name: str) -> str:
+        place, local = self.program.enumerator(vector, name), self.program.locals[name]
+        if vector.slots[name].range is None:
+            return f"    const real {local} = {vector.letter}[{place}];"
+        return f"    const real *const {local} = {vector.letter} + {place};"
 
     def line(self, text: str) -> None:
         """Add a line at the indentation at hand."""
-        self.lines.extend(wrapped("    " * self.depth + text))
+        self.lines += wrapped("    " * self.depth + text)
 
     def group(self, group: Group) -> None:
         """Write the work of a group, in its loop if it has one."""
         match group.range:
             case None:
-                self._works(group.works)
+                for work in group.works:
+                    self._work(work)
             case IndexRange(_, first, last) if first == last:
                 with self._block(group):
                     self._works(group.works, first)
@@ -70,16 +83,16 @@ class Writer:
                 with self.loop(over) as variable:
                     self._works(group.works, variable)
 
-    def _works(self, works: Iterable[Work], at: str | int | None = None) -> None:
+    def _works(self, works: Iterable[Work], at: str | int) -> None:
         for work in works:
             with self.inside(work.range, at):
                 self._work(work)
 
     @contextmanager
-    def inside(self, over: IndexRange | None, at: str | int | None) -> Iterator[None]:
+    def inside(self, over: IndexRange | None, at: str | int) -> Iterator[None]:
         """Give the index of a range its text."""
         outer = dict(self.indices)
-        if over is not None and at is not None:
+        if over is not None:
             self.indices[over.variable] = at
         yield
         self.indices = outer
@@ -145,21 +158,19 @@ class Writer:
             return lower(value, self)
         known = self.program.texts.get(id(value))
         if known is None:
-            lines, outer, self.loads = len(self.lines), self.loads, {}
+            lines = len(self.lines)
             self.indexed = False
-            text = lower(value, self)
-            known = Text(value, text, self.loads)
+            known = Text(value, lower(value, self))
             if len(self.lines) == lines and not self.indexed:
                 self.program.texts[id(value)] = known
-            self.loads = outer
-        self.loads.update(known.loads)
         return known.text
 
     def define(self, name: str, over: IndexRange | None, text: str) -> None:
         """Write the value of a binding where readers look for it."""
-        local = self.program.bindings[name]
+        local = self.program.locals[name]
         if over is not None and name in self.plan.stored:
-            self.line(f"{local}[{self._element(name, Index(over.variable))}] = {text};")
+            place = self._place(Index(over.variable), self.plan.stored[name])
+            self.line(f"{local}[{place}] = {text};")
         else:
             self.line(f"const real {local} = {text};")
 
@@ -180,16 +191,12 @@ class Writer:
 
     def name(self, name: Name) -> str:
         """Return the C text of a named value."""
-        if name.id == TIME and name.at is None:
-            return TIME
-        self.indexed |= name.at is not None
-        for order, vector in enumerate((self.program.x, self.program.u, self.program.p)):
-            if name.id in vector.slots:
-                return self._loaded(order, vector, name)
-        local = self.program.bindings[name.id]
-        if name.at is None or name.id not in self.plan.stored:
+        local = self.program.locals[name.id]
+        if name.at is None:
             return local
-        return f"{local}[{self._element(name.id, name.at)}]"
+        self.indexed = True
+        over = self._kept(name.id)
+        return local if over is None else f"{local}[{self._place(name.at, over)}]"
 
     def sum(self, expr: Sum) -> str:
         """Write the loop of a sum before the statement at hand; return its variable."""
@@ -199,26 +206,18 @@ class Writer:
             self.line(f"{total} += {lower(expr.body, self)};")
         return total
 
-    def _loaded(self, order: int, vector: Vector, name: Name) -> str:
-        local = vector.names[name.id]
-        offset, over = vector.slots[name.id]
-        single = over is None or name.at is None
-        if (order, offset) not in self.loads:
-            place = self.program.enumerator(vector, name.id)
-            self.loads[order, offset] = (
-                f"const real {local} = {vector.letter}[{place}];"
-                if single
-                else f"const real *const {local} = {vector.letter} + {place};"
-            )
-        if over is None or name.at is None:
-            return local
-        return f"{local}[{_offset(self._at(name.at), name.at.offset - over.first)}]"
+    def _kept(self, name: str) -> IndexRange | None:
+        """Return the range of a family that stands in an array."""
+        for vector in self.program.loaded:
+            if name in vector.slots:
+                return vector.slots[name].range
+        return self.plan.stored.get(name)
 
     def _at(self, index: Index) -> str | int:
         return 0 if index.variable is None else self.indices[index.variable]
 
-    def _element(self, name: str, at: Index) -> str:
-        return _offset(self._at(at), at.offset - self.plan.stored[name].first)
+    def _place(self, at: Index, over: IndexRange) -> str:
+        return _offset(self._at(at), at.offset - over.first)
 
     def _added(self, place: str, at: Index, first: int) -> str:
         where = _offset(self._at(at), at.offset - first)
@@ -229,12 +228,17 @@ def wrapped(line: str) -> list[str]:
     """Break a long line of C at its spaces, but not behind ``const``."""
     if len(line) <= _WIDEST:
         return [line]
-    indent = " " * (len(line) - len(line.lstrip()) + 4)
-    glued = line.replace("const ", "const\0")
-    parts = wrap(
-        glued, _WIDEST, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
-    )
-    return [part.replace("\0", " ") for part in parts]
+    indent = " " * (len(line) - len(line.lstrip()))
+    lines = []
+    first, *words = line.replace("const ", "const\0").split()
+    filled = indent + first
+    for word in words:
+        if len(filled) + 1 + len(word) > _WIDEST:
+            lines.append(filled)
+            filled = f"{indent}    {word}"
+        else:
+            filled = f"{filled} {word}"
+    return [line.replace("\0", " ") for line in (*lines, filled)]
 
 
 def _offset(at: str | int, offset: int) -> str:

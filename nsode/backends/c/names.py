@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\[-?[0-9]+\]|\.[A-Za-z0-9_]+)*\Z")
@@ -37,8 +36,7 @@ def plain(name: str) -> str:
     return name
 
 
-@dataclass(slots=True)
-class Mangler:
+class Mangler(dict[str, str]):
     """Hands out C names under one prefix: ``p.x`` is ``x_p_x``, and a clash is numbered.
 
     Behind a prefix that no keyword, macro or library name begins with, a user's ``int``
@@ -46,15 +44,15 @@ class Mangler:
     where that makes two names equal, the later one gets a number.
     """
 
-    prefix: str
-    _given: dict[str, str] = field(default_factory=dict)
-    _taken: set[str] = field(default_factory=set)
+    def __init__(self, prefix: str) -> None:
+        super().__init__()
+        self.prefix = prefix
+        self._taken: set[str] = set()
 
-    def __getitem__(self, name: str) -> str:
-        """Return the C name of a name of the model."""
-        if name not in self._given:
-            self._given[name] = self._fresh(self.prefix + plain(name).translate(_SPELLING))
-        return self._given[name]
+    def __missing__(self, name: str) -> str:
+        """Return the C name of a name that is new."""
+        self[name] = self._fresh(self.prefix + plain(name).translate(_SPELLING))
+        return self[name]
 
     def _fresh(self, wish: str) -> str:
         text, number = wish, 2

@@ -13,6 +13,7 @@ from itertools import pairwise
 
 from nsode.expr import Expr, Index, IndexRange, Name, Sum, children
 from nsode.ode import Binding, LinearSolve, defined, expressions
+from nsode.passes.prune import reads
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,9 +73,9 @@ class Plan:
     read: set[str]
 
 
-def plan(works: Iterable[Work]) -> Plan:
+def plan(works: Iterable[Work], readings: Readings) -> Plan:
     """Arrange work, given in an order that computes."""
-    planner = _Planner()
+    planner = _Planner(readings)
     for work in works:
         for part in planner.align(work):
             planner.place(part)
@@ -104,32 +105,52 @@ def exprs(work: Work) -> tuple[Expr, ...]:
             return tuple(expressions(work))
 
 
-def _reads(expr: Expr, variable: str | None) -> Iterator[tuple[str, bool]]:
-    """Yield each name, and whether it is read at exactly the element at hand."""
-    stack = [(expr, variable)]
-    while stack:
-        node, here = stack.pop()
-        match node:
-            case Name(id, None):
-                yield id, False
-            case Name(id, Index(name, offset)):
-                yield id, here is not None and name == here and offset == 0
-            case Sum(over, body):
-                stack.append((body, None if over.variable == here else here))
-            case _:
-                stack.extend((child, here) for child in children(node))
+_Reads = set[tuple[str, bool]]
 
 
-def _all_reads(work: Work) -> set[tuple[str, bool]]:
-    variable = None if work.range is None else work.range.variable
-    return {read for expr in exprs(work) for read in _reads(expr, variable)}
+@dataclass(slots=True)
+class Readings:
+    """What each piece of work reads, found once for all the functions that do it."""
+
+    known: dict[int, tuple[Work, _Reads]] = field(default_factory=dict)
+
+    def of(self, work: Work) -> _Reads:
+        """Return each name, and whether it is read at exactly the element at hand."""
+        if id(work) not in self.known:
+            self.known[id(work)] = work, _reads(work)
+        return self.known[id(work)][1]
+
+    def names(self, work: Work) -> set[str]:
+        """Return each name that is read."""
+        return {name for name, _ in self.of(work)}
+
+
+def _reads(work: Work) -> _Reads:
+    if work.range is None:
+        return {(name, False) for name in reads(*exprs(work))}
+    found: _Reads = set()
+    for expr in exprs(work):
+        _gather(expr, Index(work.range.variable), found)
+    return found
+
+
+def _gather(expr: Expr, here: Index | None, found: _Reads) -> None:
+    match expr:
+        case Name(id, at):
+            found.add((id, at is not None and at == here))
+        case Sum(over, body):
+            _gather(body, None if here == Index(over.variable) else here, found)
+        case _:
+            for child in children(expr):
+                _gather(child, here, found)
 
 
 @dataclass(slots=True)
 class _Planner:
+    readings: Readings
     groups: list[Group] = field(default_factory=list)
     positions: dict[_Key, list[int]] = field(default_factory=dict)
-    homes: dict[str, list[tuple[_Key, int]]] = field(default_factory=dict)
+    homes: dict[str, dict[_Key, int]] = field(default_factory=dict)
     stored: set[str] = field(default_factory=set)
     read: set[str] = field(default_factory=set)
 
@@ -140,8 +161,8 @@ class _Planner:
             yield work
             return
         starts = {over.first}
-        for name, here in _all_reads(work):
-            keys = [key for key, _ in self.homes.get(name, ()) if key is not None]
+        for name, here in self.readings.of(work):
+            keys = [key for key in self.homes.get(name, ()) if key is not None]
             if keys and not here:
                 yield work
                 return
@@ -154,17 +175,18 @@ class _Planner:
         key = _key(work.range)
         shared: list[tuple[str, int]] = []
         low = 0
-        for name, here in _all_reads(work):
+        for name, here in self.readings.of(work):
             self.read.add(name)
             homes = self.homes.get(name)
             if homes is None:
                 continue
-            at = dict(homes).get(key) if here else None
+            at = homes.get(key) if here else None
             if at is not None:
                 shared.append((name, at))
                 low = max(low, at)
             else:
-                low = max(low, max(g + (home != key or key is not None) for home, g in homes))
+                apart = (g + (home is not None or key is not None) for home, g in homes.items())
+                low = max(low, *apart)
                 self._store(name)
         position = self._position(key, low, work.range)
         for name, at in shared:
@@ -172,10 +194,10 @@ class _Planner:
                 self._store(name)
         self.groups[position].works.append(work)
         for name in _defined(work):
-            self.homes.setdefault(name, []).append((key, position))
+            self.homes.setdefault(name, {})[key] = position
 
     def _store(self, name: str) -> None:
-        if self.homes[name][0][0] is not None:
+        if None not in self.homes[name]:
             self.stored.add(name)
 
     def _position(self, key: _Key, low: int, range: IndexRange | None) -> int:
@@ -187,5 +209,5 @@ class _Planner:
         return known[at]
 
     def extent(self, name: str) -> IndexRange:
-        keys = [key for key, _ in self.homes[name] if key is not None]
+        keys = [key for key in self.homes[name] if key is not None]
         return IndexRange("", min(a for a, _ in keys), max(b for _, b in keys))

@@ -9,9 +9,20 @@ from typing import NamedTuple
 from nsode.backends import Options
 from nsode.backends.c.jacobian import Arranged, arranged
 from nsode.backends.c.names import Mangler, identifier, mangled
+from nsode.backends.c.plan import Readings
 from nsode.backends.jacobian import sparse_jacobian
-from nsode.expr import Expr
-from nsode.ode import AugmentedODE, Check, Placed, Slot, layout, size
+from nsode.expr import TIME, Expr
+from nsode.ode import (
+    AugmentedODE,
+    Binding,
+    Check,
+    Definition,
+    LinearSolve,
+    Placed,
+    Slot,
+    layout,
+    size,
+)
 from nsode.passes.reciprocal import multiply_by_reciprocals
 from nsode.passes.split import split, split_check
 
@@ -31,20 +42,20 @@ class Vector(NamedTuple):
 
 
 class Text(NamedTuple):
-    """A value as C, and the loads that it needs; it holds on to the value for its id."""
+    """A value as C; it holds on to the value for its id."""
 
     value: Expr
     text: str
-    loads: dict[tuple[int, int], str]
 
 
 @dataclass(frozen=True, slots=True)
 class Program:
     """One model on its way to C; ``ode`` is in pieces.
 
-    ``checks`` pairs each piece of a check with the number of the check in the model.
-    ``used`` collects the helpers and library functions that the text calls, ``texts`` what
-    several functions compute alike.
+    ``locals`` has what holds each named value inside a function. ``checks`` pairs each
+    piece of a check with the number of the check in the model. ``used`` collects the helpers
+    and library functions that the text calls; ``texts`` and ``readings`` hold what several
+    functions need to know of one expression.
     """
 
     ode: AugmentedODE
@@ -54,11 +65,18 @@ class Program:
     u: Vector
     p: Vector
     y: Vector
-    bindings: Mangler
+    bindings: tuple[Binding | LinearSolve, ...]
+    locals: Mangler
     checks: tuple[tuple[int, Check], ...]
     jacobian: Arranged
     used: set[str] = field(default_factory=set)
     texts: dict[int, Text] = field(default_factory=dict)
+    readings: Readings = field(default_factory=Readings)
+
+    @property
+    def loaded(self) -> tuple[Vector, ...]:
+        """The vectors that a function reads."""
+        return (self.x, self.u, self.p)
 
     @property
     def vectors(self) -> tuple[Vector, ...]:
@@ -77,19 +95,37 @@ def program(ode: AugmentedODE, options: Options) -> Program:
         names = mangled(f"{letter}_", (item.name for item in items))
         return Vector(letter, items, layout(items), names)
 
+    x, u, p = vector("x", ode.states), vector("u", ode.inputs), vector("p", ode.parameters)
     sparse = sparse_jacobian(multiply_by_reciprocals(ode))
+    in_pieces = split(sparse.ode)
     return Program(
-        ode=split(sparse.ode),
+        ode=in_pieces,
         prefix=identifier(options.prefix or ode.name),
         single=options.real == "float",
-        x=vector("x", ode.states),
-        u=vector("u", ode.inputs),
-        p=vector("p", ode.parameters),
+        x=x,
+        u=u,
+        p=p,
         y=vector("y", ode.outputs),
-        bindings=Mangler("b_"),
+        bindings=tuple(map(_single_valued, in_pieces.bindings)),
+        locals=_locals(x, u, p),
         checks=_numbered_checks(ode),
         jacobian=arranged(sparse),
     )
+
+
+def _locals(*vectors: Vector) -> Mangler:
+    """Return the names of what a function loads; those of bindings are added when asked for."""
+    names = Mangler("b_")
+    names[TIME] = TIME
+    for vector in vectors:
+        names.update(vector.names)
+    return names
+
+
+def _single_valued(item: Definition) -> Binding | LinearSolve:
+    if isinstance(item, Binding | LinearSolve):
+        return item
+    raise NotImplementedError(f"no C for {type(item).__name__}")
 
 
 def _numbered_checks(ode: AugmentedODE) -> tuple[tuple[int, Check], ...]:

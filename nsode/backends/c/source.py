@@ -113,4 +113,5 @@ def _function(head: str, lines: Sequence[str]) -> str:
 
 
 def _mentions(text: str, name: str) -> bool:
-    return re.search(rf"\b{name}\b", text) is not None
+    # A pattern that begins with a letter is found several times faster than one with \b.
+    return re.search(rf"{name}\b(?<=\b{name})", text) is not None

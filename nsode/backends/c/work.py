@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import chain
 from math import nan
 
-from nsode.backends.c.plan import Require, Scatter, Store, Work, exprs
+from nsode.backends.c.plan import Require, Scatter, Store, Work
 from nsode.backends.c.program import Program, Vector
 from nsode.expr import TIME, Expr, IndexRange, Name, Number, rebuild
 from nsode.ode import Binding, LinearSolve, State, defined, expressions
@@ -87,7 +87,7 @@ def _states_behind(program: Program) -> dict[str, set[str]]:
     read = {state.name: reads(state.initial) for state in program.ode.states}
     wanted = set().union(*read.values())
     behind: dict[str, set[str]] = {name: {name} for name in program.x.slots}
-    for item in needed(program.ode.bindings, wanted):
+    for item in needed(program.bindings, wanted):
         states = _behind(reads(*expressions(item)), behind)
         for name in defined(item):
             behind.setdefault(name, set()).update(states)
@@ -121,13 +121,9 @@ def _map(work: Work, change: Callable[[Expr], Expr]) -> Work:
 
 
 def _with_bindings(program: Program, works: Sequence[Store | Require | Scatter]) -> list[Work]:
-    wanted = reads(*chain.from_iterable(exprs(work) for work in works))
-    found: list[Work] = []
-    for item in needed(program.ode.bindings, wanted):
-        if not isinstance(item, Binding | LinearSolve):
-            raise NotImplementedError(f"no C for {type(item).__name__}")
-        found.append(item)
-    return [*found, *works]
+    names = program.readings.names
+    wanted = set().union(*map(names, works))
+    return [*needed(program.bindings, wanted, names), *works]
 
 
 def _stores(
