@@ -10,6 +10,7 @@ import pytest
 
 import nsode
 from nsode.ode import IndexRange, element_names
+from support.modules import load_module
 from support.reading import binding, compiled, parameters, rates, refused, states
 from support.running import Tracer
 from support.twins import Twins
@@ -35,6 +36,22 @@ def test_a_family_is_its_elements_written_out(seed: int) -> None:
         wanted, _ = Tracer(elements, t, other, [], parameters(elements, {})).rhs()
         wanted = wanted[[place[name] for name in names]]
         assert np.all(np.abs(found - wanted) <= 1e-15 * scale)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_numpy_module_of_a_family_computes_its_elements(seed: int) -> None:
+    twins = Twins(1000 + seed)
+    family, elements = (nsode.loads(text).ode for text in twins.texts)
+    names = [twins.name(name) for name in element_names(family.states)]
+    place = {name: k for k, name in enumerate(element_names(elements.states))}
+    code = load_module(family)
+    x = np.random.default_rng(seed).uniform(-0.05, 0.05, len(names))
+    other = np.zeros(len(names))
+    other[[place[name] for name in names]] = x
+    found = code.rhs(0.5, x, code.u0, code.p0)
+    tracer = Tracer(elements, 0.5, other, [], parameters(elements, {}))
+    wanted, scale = (part[[place[name] for name in names]] for part in tracer.rhs())
+    assert np.all(np.abs(found - wanted) <= 4 * np.finfo(float).eps * scale)
 
 
 CHAIN = ("constant n = 3", "state x[i in 1..n] = 0.1*i", "state v = 0", "der(v) = 0")

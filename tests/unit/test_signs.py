@@ -36,7 +36,7 @@ PROVED = [
 
 UNPROVED = [
     "w", "below", "mu - N", "N - mu", "w^3", "w*v", "mu*below", "sin(w)", "mu + below", "N/zero",
-    "N/w", "N/abs(w)", "min(mu, w)", "max(below, w)", "log(N)", "tanh(w)", "-dio(w)", "t", "mixed[1]",
+    "N/w", "N/abs(w)", "min(mu, w)", "max(below, w)", "log(N)", "tanh(w)", "-dio(w)", "mixed[1]",
     "sum(i in 1..n: (i - 2)*abs(x[i]))", "sum(i in 1..n: mixed[i]^3)", "sum(i in 1..n: x[i])",
     "if t > 0 then mu else below", "-abs(w)", "x[1]", "sqrt(below)*0 - 1",
 ]  # fmt: skip
