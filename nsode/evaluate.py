@@ -100,6 +100,10 @@ def _sat(level: float, x: float) -> float:
     return level if x > 0 else -level if x < 0 else x + level
 
 
+def _shrink(level: float, n: float) -> float:
+    return 1.0 if n < level else level / n if n > 0 else level + n
+
+
 _RULES: dict[str, Callable[..., float]] = {
     "+": _add,
     "neg": operator.neg,
@@ -134,5 +138,5 @@ _RULES: dict[str, Callable[..., float]] = {
     "mod": _mod,
     "norm": lambda *args: math.sqrt(sum(a * a for a in args)),
     "sat": _sat,
-    "shrink": lambda level, n: 1.0 if n <= level else _divide(level, n),
+    "shrink": _shrink,
 }

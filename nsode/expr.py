@@ -101,7 +101,8 @@ class Function(NamedTuple):
 #: adds from the left; there is no minus: ``a - b`` is ``+(a, neg(b))``. ``max`` and
 #: ``min`` take two. ``norm`` takes the components of its vector.
 #: ``sat(Z, x)`` is the paper's (2) in one dimension; in more, ``shrink(Z, n)`` is the
-#: factor ``min(1, Z/n)`` by which ``sat`` shortens a vector of norm ``n``.
+#: factor ``min(1, Z/n)`` by which ``sat`` shortens a vector of norm ``n``, 0 where both
+#: are 0: the vector is 0 then, and its product flat.
 FUNCTIONS: dict[str, Function] = {
     "+": Function(None),
     "neg": Function(1),

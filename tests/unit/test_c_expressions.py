@@ -153,7 +153,7 @@ MEANING = {
     "max": _max,
     "min": _min,
     "sat": _sat,
-    "shrink": lambda z, n: 1.0 if n <= z else _divide(z, n),
+    "shrink": lambda z, n: 1.0 if n < z else z / n if n > 0 else z + n,
     "norm": lambda a, b: math.sqrt(a * a + b * b),
     "<": lambda a, b: a < b,
     "<=": lambda a, b: a <= b,

@@ -49,10 +49,10 @@ static inline real sat(real Z, real x)
     ),
     "shrink": (
         """\
-/* The factor that brings a vector of norm n into the ball of radius Z. */
+/* The factor that brings a vector of norm n into the ball of radius Z; 0 where both are 0. */
 static inline real shrink(real Z, real n)
 {
-    return n <= Z ? 1 : Z/n;
+    return n < Z ? 1 : n > 0 ? Z/n : Z + n;
 }
 """,
         (),

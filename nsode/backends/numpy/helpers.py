@@ -19,8 +19,8 @@ def sat(Z, x):
 
 _SHRINK = '''\
 def shrink(Z, n):
-    """Return the factor by which a vector of norm n is shortened to the level Z."""
-    return np.where(n <= Z, real(1.0), Z / n)
+    """Return the factor by which a vector of norm n is shortened to Z; 0 where both are 0."""
+    return np.where(n < Z, real(1.0), np.where(n > 0, Z / n, Z + n))
 '''
 
 _NORM = '''\

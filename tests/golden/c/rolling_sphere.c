@@ -15,10 +15,10 @@ static inline real larger(real a, real b)
     return a > b ? a : b >= a ? b : a + b;
 }
 
-/* The factor that brings a vector of norm n into the ball of radius Z. */
+/* The factor that brings a vector of norm n into the ball of radius Z; 0 where both are 0. */
 static inline real shrink(real Z, real n)
 {
-    return n <= Z ? 1 : Z/n;
+    return n < Z ? 1 : n > 0 ? Z/n : Z + n;
 }
 
 static inline real norm2(real a, real b)
