@@ -225,7 +225,8 @@ def _component(expr: Component, scope: Scope) -> Value:
             f"this is {what}",
             help=help,
         )
-    return base[k - 1]
+    part = base[k - 1]
+    return replace(part, span=expr.span) if isinstance(part, Name) else part
 
 
 def _if(expr: If, scope: Scope) -> Value:

@@ -34,14 +34,32 @@ def _take(prover: Prover, condition: Expr, bound: bool) -> None:
         case Call("and", (left, right)):
             _take(prover, left, bound)
             _take(prover, right, bound)
-        case Call(relation, (Name(id), Number(limit))) if bound:
+        case Call(relation, (Name(id, at) as name, Number(limit))) if bound:
             goal = _RELATIONS[relation]
-            if goal in {">=", ">"} and limit >= 0:
-                prover.bounds.setdefault(id, set()).add(">" if limit > 0 else goal)
-            if goal in {"<=", "<"} and limit <= 0:
-                prover.bounds.setdefault(id, set()).add("<" if limit < 0 else goal)
+            sign = _sign_beyond(limit, goal)
+            if sign is not None:
+                prover.bounds.setdefault(id, set()).add(sign)
+            if at is None:
+                prover.assume(_difference(name, Number(limit)), goal)
         case Call(relation, (left, right)) if relation in _RELATIONS:
-            prover.assume(_difference(left, right), _RELATIONS[relation])
+            goal = _RELATIONS[relation]
+            prover.assume(_difference(left, right), goal)
+            for side, other, seen in ((left, right, goal), (right, left, _MIRRORED[goal])):
+                sign = _sign_beyond(other.value, seen) if isinstance(other, Number) else None
+                if sign is not None:
+                    prover.assume(side, sign)
+
+
+_MIRRORED: dict[Goal, Goal] = {">=": "<=", ">": "<", "<=": ">=", "<": ">"}
+
+
+def _sign_beyond(limit: float, goal: Goal) -> Goal | None:
+    """Return the sign of whatever is beyond a limit, where it has one."""
+    if goal in {">=", ">"} and limit >= 0:
+        return ">" if limit > 0 else goal
+    if goal in {"<=", "<"} and limit <= 0:
+        return "<" if limit < 0 else goal
+    return None
 
 
 def _difference(left: Expr, right: Expr) -> Expr:

@@ -167,3 +167,24 @@ def test_values_that_break_their_own_bounds_are_refused(lines: list[str]) -> Non
 )
 def test_values_within_their_bounds_are_accepted(lines: list[str]) -> None:
     assert refused(*lines, "state v = 0", "der(v) = 0") == []
+
+
+@pytest.mark.parametrize(
+    ("said", "factor"),
+    [
+        ("input u = 2\nassume u > 1", "u"),
+        ("input u = 2\nassume u >= 1", "u"),
+        ("input u = 2\nassume 1 <= u", "u"),
+        ("input u = -2\nassume u <= -1", "(-u)"),
+        ("parameter u = 2 >= 1", "(u - 1)"),
+        ("parameter u = 2 > 1", "(u - 1)"),
+    ],
+)
+def test_what_lies_beyond_a_number_has_the_sign_of_that_side(said, factor):
+    model = f"model m\n{said}\nstate v = 1\nder(v) = -{factor}*sgn(v)\n"
+    assert nsode.loads(model).inclusion.terms
+
+
+def test_a_limit_on_the_wrong_side_of_zero_proves_nothing():
+    with pytest.raises(nsode.diagnostics.ModelError, match="NS201"):
+        nsode.loads("model m\ninput u = 2\nassume u > -1\nstate v = 1\nder(v) = -u*sgn(v)\n")
