@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+import nsode
+from nsode.diagnostics import ModelError
 from support.reading import compiled, refused, text
 
 HEAD = (
@@ -186,5 +188,5 @@ def test_what_lies_beyond_a_number_has_the_sign_of_that_side(said, factor):
 
 
 def test_a_limit_on_the_wrong_side_of_zero_proves_nothing():
-    with pytest.raises(nsode.diagnostics.ModelError, match="NS201"):
+    with pytest.raises(ModelError, match="NS201"):
         nsode.loads("model m\ninput u = 2\nassume u > -1\nstate v = 1\nder(v) = -u*sgn(v)\n")
