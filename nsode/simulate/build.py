@@ -15,10 +15,12 @@ from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
 
-from nsode.backends import Options, emit
+from nsode.backends import Options
+from nsode.backends.c import emit
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.integrators import REGISTRY
 from nsode.integrators.pairs import PAIRS, EmbeddedPair
+from nsode.integrators.splittings import SPLITTINGS
 from nsode.ode import AugmentedODE
 from nsode.simulate import cache
 
@@ -73,12 +75,19 @@ def library(ode: AugmentedODE, method: str, using: Compiler) -> Path:
 
 
 def sources(ode: AugmentedODE, method: str) -> dict[str, str]:
-    """Return the C of a model and the loop around it, by file name."""
-    texts = emit("c", ode, Options(prefix=PREFIX))
+    """Return the C of a model and the loop around it, by file name.
+
+    Raises
+    ------
+    ModelError
+        NS501 if the method cannot step the model.
+    """
+    splittings = [SPLITTINGS[method]] if method in SPLITTINGS else []
+    texts = emit(ode, Options(prefix=PREFIX), splittings)
     steps = "".join(
         f"static int {PREFIX}_step_{name}"
         "(double t, double h, double *x, const double *u, const double *p);\n"
-        for name in REGISTRY
+        for name in (*REGISTRY, *(found.name for found in splittings))
     )
     file, definitions = "run.c", f"#define STEP {PREFIX}_step_{method}\n"
     if method in PAIRS:

@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.integrators import REGISTRY
 from nsode.integrators.pairs import PAIRS
+from nsode.integrators.splittings import SPLITTINGS
 from nsode.ode import AugmentedODE, DifferentialInclusion
 from nsode.simulate.build import Compiler, compiler, library
 from nsode.simulate.guard import Books, with_books
@@ -70,12 +71,13 @@ def _made(
     kept = with_books(inclusion, observed.ode) if watched else None
     if kept is not None:
         observed, books = replace(observed, ode=kept[0]), kept[1]
-    stepped = method if method in REGISTRY or method in PAIRS else next(iter(REGISTRY))
+    compiled = (*REGISTRY, *PAIRS, *SPLITTINGS)
+    stepped = method if method in compiled else next(iter(REGISTRY))
     if using is not None:
         return Scene(
             observed, load(observed.ode, library(observed.ode, stepped, using)), using, books
         )
-    if stepped in PAIRS or find_spec("casadi") is None:
+    if stepped not in REGISTRY or find_spec("casadi") is None:
         raise ModelError([_no_compiler(stepped)])
     return Scene(observed, virtual(observed.ode, stepped), None, books)
 

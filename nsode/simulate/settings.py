@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from nsode.diagnostics import Diagnostic, Label, ModelError, suggest
 from nsode.integrators import REGISTRY
 from nsode.integrators.pairs import PAIRS
+from nsode.integrators.splittings import SPLITTINGS
 from nsode.limits import DEFAULT_LIMITS, Limits, either
 from nsode.ode import Run
 
@@ -129,7 +130,7 @@ def settle(
 
 def methods() -> tuple[str, ...]:
     """Return the names of the methods that a run can be made with."""
-    return (*REGISTRY, *PAIRS, *SOLVERS)
+    return (*REGISTRY, *SPLITTINGS, *PAIRS, *SOLVERS)
 
 
 def _missing(duration: float | None, step: float | None) -> list[Diagnostic]:

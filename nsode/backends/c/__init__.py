@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from nsode.backends import Options
 from nsode.backends.c.expressions import Scope, lower
 from nsode.backends.c.header import header
 from nsode.backends.c.program import program
 from nsode.backends.c.source import source
 from nsode.backends.descriptor import render
+from nsode.integrators.splittings import Verlet
 from nsode.ode import AugmentedODE
 
 __all__ = ["Scope", "emit", "lower"]
@@ -16,7 +19,9 @@ __all__ = ["Scope", "emit", "lower"]
 _DEFAULTS = Options()
 
 
-def emit(ode: AugmentedODE, options: Options = _DEFAULTS) -> dict[str, str]:
+def emit(
+    ode: AugmentedODE, options: Options = _DEFAULTS, splittings: Iterable[Verlet] = ()
+) -> dict[str, str]:
     """Write a model as C99 that is also C++.
 
     Parameters
@@ -25,13 +30,20 @@ def emit(ode: AugmentedODE, options: Options = _DEFAULTS) -> dict[str, str]:
         The model; its units are SI throughout.
     options
         The prefix of every name and the type of a number.
+    splittings
+        Methods that are written besides the registered ones.
 
     Returns
     -------
     dict
         ``PREFIX.h``, ``PREFIX.c`` and ``PREFIX.json``.
+
+    Raises
+    ------
+    ModelError
+        NS501 if a splitting cannot step the model.
     """
-    made = program(ode, options)
+    made = program(ode, options, splittings)
     return {
         f"{made.prefix}.h": header(made),
         f"{made.prefix}.c": source(made),

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 
 from nsode.backends.c.function import wrapped
 from nsode.backends.c.program import Program, Vector
-from nsode.integrators import REGISTRY
 
 _WHAT = {"x": "states", "u": "inputs", "p": "parameters", "y": "outputs"}
 
@@ -33,14 +32,14 @@ def prototypes(program: Program) -> dict[str, str]:
         "jac": f"{state}, {real} *J",
         "jac_pattern": "int *row, int *col",
         "init": f"const {real} *p, {real} *x",
-        **{f"step_{name}": step for name in REGISTRY},
+        **{f"step_{name}": step for name in program.methods},
     }
     return {name: f"int {program.prefix}_{name}({args})" for name, args in heads.items()}
 
 
-def _comment(name: str) -> str:
+def _comment(program: Program, name: str) -> str:
     if name.startswith("step_"):
-        return f"One step of size h: {REGISTRY[name.removeprefix('step_')].title}."
+        return f"One step of size h: {program.methods[name.removeprefix('step_')].title}."
     return {
         "rhs": "The rates dx of the states x at time t, for inputs u and parameters p.",
         "out": "The outputs y: the declared ones, then every force.",
@@ -54,7 +53,7 @@ def header(program: Program) -> str:
     """Return the text of the header."""
     prefix = program.prefix
     functions = "".join(
-        "\n".join([f"/* {_comment(name)} */", *wrapped(f"{head};"), ""])
+        "\n".join([f"/* {_comment(program, name)} */", *wrapped(f"{head};"), ""])
         for name, head in prototypes(program).items()
     )
     return f"""\

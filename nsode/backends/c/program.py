@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -12,6 +12,8 @@ from nsode.backends.c.names import Mangler, identifier, mangled
 from nsode.backends.c.plan import Readings
 from nsode.backends.jacobian import sparse_jacobian
 from nsode.expr import TIME, Expr
+from nsode.integrators import REGISTRY, Scheme
+from nsode.integrators.splittings import Verlet
 from nsode.ode import (
     AugmentedODE,
     Binding,
@@ -50,7 +52,7 @@ class Text(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """One model on its way to C; ``ode`` is in pieces.
+    """One model on its way to C; ``ode`` is in pieces, ``whole`` as it came.
 
     ``locals`` has what holds each named value inside a function. ``checks`` pairs each
     piece of a check with the number of the check in the model. ``used`` collects the helpers
@@ -59,6 +61,8 @@ class Program:
     """
 
     ode: AugmentedODE
+    whole: AugmentedODE
+    methods: Mapping[str, Scheme | Verlet]
     prefix: str
     single: bool
     x: Vector
@@ -88,8 +92,8 @@ class Program:
         return f"{self.prefix}_{vector.letter.upper()}_{vector.names[name][2:]}"
 
 
-def program(ode: AugmentedODE, options: Options) -> Program:
-    """Prepare a model for C."""
+def program(ode: AugmentedODE, options: Options, splittings: Iterable[Verlet] = ()) -> Program:
+    """Prepare a model for C, with the registered methods and some splittings."""
 
     def vector(letter: str, items: Sequence[Placed]) -> Vector:
         names = mangled(f"{letter}_", (item.name for item in items))
@@ -100,13 +104,15 @@ def program(ode: AugmentedODE, options: Options) -> Program:
     in_pieces = split(sparse.ode)
     return Program(
         ode=in_pieces,
+        whole=ode,
+        methods={**REGISTRY, **{method.name: method for method in splittings}},
         prefix=identifier(options.prefix or ode.name),
         single=options.real == "float",
         x=x,
         u=u,
         p=p,
         y=vector("y", ode.outputs),
-        bindings=tuple(map(_single_valued, in_pieces.bindings)),
+        bindings=definitions(in_pieces),
         locals=_locals(x, u, p),
         checks=_numbered_checks(ode),
         jacobian=arranged(sparse),
@@ -120,6 +126,11 @@ def _locals(*vectors: Vector) -> Mangler:
     for vector in vectors:
         names.update(vector.names)
     return names
+
+
+def definitions(ode: AugmentedODE) -> tuple[Binding | LinearSolve, ...]:
+    """Return the bindings of an ODE."""
+    return tuple(map(_single_valued, ode.bindings))
 
 
 def _single_valued(item: Definition) -> Binding | LinearSolve:

@@ -6,13 +6,13 @@ import re
 from collections.abc import Sequence
 from itertools import chain
 
-from nsode.backends.c import jacobian, tables, work
+from nsode.backends.c import jacobian, tables, verlet, work
 from nsode.backends.c.function import body, wrapped
 from nsode.backends.c.header import prototypes
 from nsode.backends.c.helpers import need_math, with_helpers
 from nsode.backends.c.program import Program
 from nsode.backends.c.step import finish, step
-from nsode.integrators import REGISTRY
+from nsode.integrators.splittings import Verlet
 
 _STATE = "real t, const real *x, const real *u, const real *p"
 
@@ -79,11 +79,19 @@ def _steps(program: Program) -> list[str]:
     heads = _heads(program)
     return [
         finish(program),
+        *_stages(program),
         *(
             _function(heads[f"step_{name}"], [*_guard(program), *step(scheme, program)])
-            for name, scheme in REGISTRY.items()
+            for name, scheme in program.methods.items()
         ),
     ]
+
+
+def _stages(program: Program) -> list[str]:
+    """Return what the step of a splitting calls, if there is one."""
+    if not any(isinstance(scheme, Verlet) for scheme in program.methods.values()):
+        return []
+    return [_function(head, lines) for head, lines in verlet.stages(program).items()]
 
 
 def _guard(program: Program) -> list[str]:

@@ -9,13 +9,14 @@ from math import lcm
 from nsode.backends.c.program import Program
 from nsode.integrators import Scheme
 from nsode.integrators.scheme import RungeKutta
+from nsode.integrators.splittings import Verlet
 
 #: Below this a value is zero: e and a decay into subnormals, which are slow.
 _FLUSH = {False: "(real)1e-290", True: "(real)1e-37"}
 
 
 @singledispatch
-def step(scheme: Scheme, program: Program) -> list[str]:
+def step(scheme: Scheme | Verlet, program: Program) -> list[str]:
     """Return the body of the function that advances ``x`` by one step, indented once."""
     raise NotImplementedError(f"no C for {type(scheme).__name__}")
 
