@@ -1,29 +1,37 @@
 """C, NumPy and CasADi give one right-hand side, to 4 eps of the running term scale.
 
-``NSODE_SEEDS=10000`` compares that many random models instead of a few.
+``NSODE_SEEDS=10000`` compares that many random models of each kind instead of a few.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 import nsode
+from nsode.diagnostics import ModelError
 from nsode.ode import AugmentedODE, element_names
+from support.generate import model
 from support.models import PATHS
 from support.modules import load_module
-from support.native import Native, have
+from support.native import Native, build_all, have
 from support.odes import Maker
 from support.running import Tracer
+from support.twins import Twins
 
 EPS = np.finfo(float).eps
 SEEDS = int(os.environ.get("NSODE_SEEDS", "15"))
+TEXTS = int(os.environ.get("NSODE_SEEDS", "280"))  # of which every fourth is of twins
+BATCH = 40  # of models in one library
+COMPILERS = ("gcc", "clang")  # by turns
+PLAIN = ("-O0", "-ffp-contract=off")
 
 Rates = Callable[[float, NDArray, NDArray, NDArray], NDArray]
 
@@ -111,6 +119,56 @@ def slopes(ode: AugmentedODE) -> Rates:
     jacobian = model.rhs.jacobian()
     n = len(model.x_names)
     return lambda t, x, u, p: np.array(jacobian(t, x, u, p, 0)[1]).reshape(n, n)
+
+
+def text(seed: int) -> str:
+    """Return a random model: tame and rich (see twins), or wild, poles and all (see generate)."""
+    return Twins(seed).texts[0] if seed % 4 == 0 else model(Random(seed))
+
+
+def accepted(seeds: range) -> list[tuple[int, AugmentedODE]]:
+    """Return the ODEs of the random texts that are not refused, with their seeds."""
+    found = []
+    for seed in seeds:
+        try:
+            found.append((seed, nsode.loads(text(seed)).ode))
+        except ModelError:
+            assert seed % 4, "the tame models are all valid"
+    return found
+
+
+def assert_agrees_where_finite(ode: AugmentedODE, all_rates: Sequence[Rates], count: int) -> int:
+    """Compare rates, leaving out poles and what grew beyond reason; return how many are left."""
+    compared = 0
+    for t, x, u, p in points(ode, count):
+        expected, scale = Tracer(ode, t, x, u, p).rhs()
+        fine = np.isfinite(expected) & (scale < 1e200)
+        for rates in all_rates:
+            error = np.abs(rates(t, x, u, p)[fine] - expected[fine])
+            agrees = error <= 4 * EPS * scale[fine]
+            assert np.all(agrees), (rates, np.array(element_names(ode.states))[fine][~agrees], t, x)
+        compared += int(np.sum(fine))
+    return compared
+
+
+@pytest.mark.parametrize("first", range(0, TEXTS, BATCH))
+def test_random_texts_have_one_right_hand_side(first, tmp_path):
+    cc = COMPILERS[first // BATCH % len(COMPILERS)]
+    if not have(cc):
+        pytest.skip(f"{cc} is not installed")
+    models = accepted(range(first, min(first + BATCH, TEXTS)))
+    assert len(models) > BATCH // 2 or TEXTS % BATCH
+    natives = build_all([ode for _, ode in models], tmp_path, cc=cc, flags=PLAIN)
+    compared = states = 0
+    for (seed, ode), native in zip(models, natives, strict=True):
+        try:
+            all_rates = (native.rhs, load_module(ode).rhs, through_casadi(ode))
+            compared += assert_agrees_where_finite(ode, all_rates, 3)
+        except AssertionError as error:
+            error.add_note(f"seed {seed}:\n{text(seed)}")
+            raise
+        states += len(native.x_names)
+    assert compared > 3 * states  # of 5 points each: most are no poles
 
 
 def test_the_comparison_can_fail():

@@ -183,3 +183,20 @@ def build(
     strict = WARNINGS if cc in {"gcc", "clang"} else ()
     run_tool([cc, *strict, *flags, "-fPIC", "-shared", "-o", library, *sources, "-lm"])
     return Native(ode, prefix or ode.name, folder, ctypes.CDLL(str(library)), DTYPES[real])
+
+
+def build_all(
+    odes: Sequence[AugmentedODE], folder: Path, *, cc: str = "gcc", flags: Sequence[str] = FLAGS
+) -> list[Native]:
+    """Compile many ODEs into one library, each under a prefix of its own: m0, m1 and so on."""
+    prefixes = [f"m{k}" for k in range(len(odes))]
+    for ode, prefix in zip(odes, prefixes, strict=True):
+        write_files(emit("c", ode, Options(prefix=prefix)), folder)
+    library = folder / "models.so"
+    sources = [folder / f"{prefix}.c" for prefix in prefixes]
+    run_tool([cc, "-std=c99", *flags, "-fPIC", "-shared", "-o", library, *sources, "-lm"])
+    loaded = ctypes.CDLL(str(library))
+    return [
+        Native(ode, prefix, folder, loaded, DTYPES["double"])
+        for ode, prefix in zip(odes, prefixes, strict=True)
+    ]

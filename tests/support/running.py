@@ -7,6 +7,7 @@ formula differ by some eps times this scale, whatever the cancellation.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -121,9 +122,11 @@ def _at(item: object, k: int | None) -> dict[str, int]:
 def _call(function: str, args: list[Running]) -> Running:
     values = [a.value for a in args]
     value = apply(function, *values)
-    passed = sum(
-        slope * a.scale for slope, a in zip(_slopes(function, values, value), args, strict=True)
-    )
+    try:
+        slopes = _slopes(function, values, value)
+    except (OverflowError, ValueError, ZeroDivisionError):
+        return Running(value, np.inf)  # at a pole nothing is known
+    passed = sum(slope * a.scale for slope, a in zip(slopes, args, strict=True))
     return Running(value, abs(value) + passed)
 
 
@@ -144,6 +147,14 @@ def _slopes(function: str, v: list[float], value: float) -> list[float]:
             return [1 / v[0]]
         case "exp":
             return [value]
+        case "tan":
+            return [1 + value**2]
+        case "cosh" | "sinh":
+            return [math.cosh(v[0])]
+        case "atan2":
+            return [1 / math.hypot(*v)] * 2
+        case "mod":
+            return [1.0, abs(v[0] / v[1]) + 1]
         case _:
             return [1.0] * len(v)
 
