@@ -177,7 +177,7 @@ def test_values_within_their_bounds_are_accepted(lines: list[str]) -> None:
         ("input u = 2\nassume u > 1", "u"),
         ("input u = 2\nassume u >= 1", "u"),
         ("input u = 2\nassume 1 <= u", "u"),
-        ("input u = -2\nassume u <= -1", "(-u)"),
+        ("input u = -2\nassume u <= -1", "(1 - u)"),
         ("parameter u = 2 >= 1", "(u - 1)"),
         ("parameter u = 2 > 1", "(u - 1)"),
     ],
