@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from nsode.backends import Options
 from nsode.backends import emit as emit_target
 from nsode.diagnostics import Diagnostic, ModelError
-from nsode.files import write_all
+from nsode.files import write_generated
 from nsode.inclusion.build import build
 from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.ode import AugmentedODE, DifferentialInclusion, size
@@ -157,9 +157,10 @@ class Model:
         Raises
         ------
         OSError
-            If they cannot be written; nothing half written stays behind.
+            If they cannot be written, or would replace a file that nsode did not write;
+            nothing half written stays behind.
         """
-        return write_all(self.emit(target, options), Path(folder))
+        return write_generated(self.emit(target, options), Path(folder))
 
     def only(self, outputs: Sequence[str]) -> Model:
         """Return the model with just some outputs and the states that they depend on.

@@ -10,6 +10,8 @@ from operator import methodcaller
 from pathlib import Path
 from typing import IO
 
+_MARK, _HEAD = b"nsode", 4096  # generated files say at their head who wrote them
+
 
 def write_all(files: Mapping[str, str], folder: Path) -> list[Path]:
     """Write every file into ``folder``, which is made if need be, or none of them.
@@ -39,6 +41,24 @@ def write_all(files: Mapping[str, str], folder: Path) -> list[Path]:
             draft.unlink(missing_ok=True)
     _settle(folder)
     return targets
+
+
+def write_generated(files: Mapping[str, str], folder: Path) -> list[Path]:
+    """Write generated files as :func:`write_all` does, but over none that a person wrote.
+
+    Raises
+    ------
+    FileExistsError
+        If a file of that name is there and its head does not say that nsode wrote it.
+    OSError
+        If a file cannot be written.
+    """
+    for name, text in files.items():
+        target = _inside(folder, name)
+        signed = _MARK in text[:_HEAD].lower().encode()
+        if signed and target.is_file() and _MARK not in target.read_bytes()[:_HEAD].lower():
+            raise FileExistsError(17, "a file that nsode did not write is there", str(target))
+    return write_all(files, folder)
 
 
 def write_binary(path: Path, write: Callable[[IO[bytes]], object]) -> None:

@@ -13,4 +13,5 @@ def emit(ode: AugmentedODE, options: Options) -> dict[str, str]:
     """Return ``PREFIX.md``."""
     body = equations(ode, "$$\n{}\n$$\n\n", "where\n\n")
     title = ode.name.replace("_", r"\_")
-    return {f"{options.prefix or ode.name}.md": f"# {title}\n\n{body}".rstrip() + "\n"}
+    text = f"<!-- Written by nsode. -->\n# {title}\n\n{body}".rstrip() + "\n"
+    return {f"{options.prefix or ode.name}.md": text}

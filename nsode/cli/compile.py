@@ -13,7 +13,7 @@ from nsode.cli.failure import USAGE, io_diagnostic
 from nsode.cli.model import law_options, limit_option, load, summary
 from nsode.cli.terminal import bold, complain, quiet, say
 from nsode.diagnostics import ModelError
-from nsode.files import write_all
+from nsode.files import write_generated
 from nsode.limits import Limits
 from nsode.ode import AugmentedODE
 from nsode.passes.count import operations
@@ -111,7 +111,7 @@ def command(
         loaded = loaded.baked(bake)
     options = Options(prefix=prefix, real=cast(Literal["double", "float"], real))
     try:
-        paths = write_all(loaded.emit(target, options), folder)
+        paths = write_generated(loaded.emit(target, options), folder)
     except OSError as error:
         complain([io_diagnostic("NS602", error)])
         return USAGE

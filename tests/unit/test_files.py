@@ -4,7 +4,7 @@ import stat
 
 import pytest
 
-from nsode.files import create, write_all
+from nsode.files import create, write_all, write_generated
 from support import listing
 
 
@@ -75,3 +75,16 @@ def test_create_does_not_follow_a_dangling_link(tmp_path):
     with pytest.raises(FileExistsError):
         create(tmp_path / "a.di", "text")
     assert not (tmp_path / "elsewhere").exists()
+
+
+def test_generated_files_replace_each_other_but_nothing_that_a_person_wrote(tmp_path):
+    main = tmp_path / "main.c"
+    main.write_text("int main(void) { return 0; }\n")
+    written = {"main.h": "/* Written by nsode */\n", "main.c": "/* Written by nsode */\n"}
+    with pytest.raises(FileExistsError, match="nsode did not write"):
+        write_generated(written, tmp_path)
+    assert main.read_text() == "int main(void) { return 0; }\n"
+    assert not (tmp_path / "main.h").exists()
+    main.unlink()
+    for _ in range(2):
+        assert len(write_generated(written, tmp_path)) == 2

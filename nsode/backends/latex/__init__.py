@@ -13,7 +13,8 @@ from nsode.passes.split import split
 __all__ = ["DOCUMENT", "Environment", "emit", "equations", "lower"]
 
 #: A document of its own, to be given a title and a body.
-DOCUMENT = r"""\documentclass{{article}}
+DOCUMENT = r"""% Written by nsode.
+\documentclass{{article}}
 \usepackage{{amsmath}}
 \setcounter{{MaxMatrixCols}}{{64}}
 \begin{{document}}
