@@ -70,6 +70,8 @@ CODES: dict[str, str] = {
     "NS406": "undefined value at the start",
     "NS407": "unstable step",
     "NS408": "lightly damped friction",
+    "NS409": "impacts not resolved",
+    "NS410": "step not checked",
     # runs
     "NS501": "setting of a run out of range",
     "NS502": "run too large",
@@ -81,6 +83,7 @@ CODES: dict[str, str] = {
     "NS508": "unusable input data",
     "NS509": "no working compiler",
     "NS510": "unsafe build cache",
+    "NS511": "too large for the stack",
     # files and the machine
     "NS601": "cannot read",
     "NS602": "cannot write",
@@ -138,8 +141,9 @@ def refuse(
 def suggest(name: str, known: Iterable[str]) -> str | None:
     """Return ``did you mean ...`` for a misspelt name, None where nothing is near."""
     names = list(known)
+    same = [other for other in names if other.casefold() == name.casefold()]
     swapped = [other for other in names if sorted(other) == sorted(name)]
-    near = swapped or get_close_matches(name, names, n=1, cutoff=0.6)
+    near = same or swapped or get_close_matches(name, names, n=1, cutoff=0.6)
     return f"did you mean `{near[0]}`?" if near else None
 
 

@@ -86,8 +86,8 @@ def contacts(
         for element, given in zip(scene.elements, scene.constants, strict=True)
         if element.is_contact
         and given.known
-        and _degree(element, mass) == 2
-        and _inverse_mass(element, mass) > 0
+        and degree(element, mass) == 2
+        and inverse_mass(element, mass) > 0
     )
 
 
@@ -96,15 +96,16 @@ def frictions(scene: Scene, local: Local, mass: EffectiveMass) -> tuple[Friction
     return tuple(
         _friction(element, given, local, mass)
         for element, given in zip(scene.elements, scene.constants, strict=True)
-        if not element.is_contact and given.known and _inverse_mass(element, mass) > 0
+        if not element.is_contact and given.known and inverse_mass(element, mass) > 0
     )
 
 
-def _degree(element: Element, mass: EffectiveMass) -> int:
+def degree(element: Element, mass: EffectiveMass) -> int:
+    """Return how often an element's argument is derived until its multiplier shows."""
     return mass.degrees[element.rows[0]]
 
 
-def _inverse_mass(element: Element, mass: EffectiveMass) -> float:
+def inverse_mass(element: Element, mass: EffectiveMass) -> float:
     """Return the largest eigenvalue of an element's own block of W."""
     block = mass.array[np.ix_(element.rows, element.rows)]
     return float(np.linalg.eigvalsh(0.5 * (block + block.T)).max())
@@ -119,7 +120,7 @@ def _contact(
     speed: float | None,
 ) -> Contact:
     (row,) = element.rows
-    w = _inverse_mass(element, mass)
+    w = inverse_mass(element, mass)
     frequency = sqrt(given.stiffness * w)
     ratio, kappa = given.beta / given.alpha, given.alpha * frequency
     pressing = max(0.0, -float(local.motion[row] @ local.rates))
@@ -150,7 +151,7 @@ def _impact_speed(local: Local, row: int, pressing: float) -> float:
 
 
 def _friction(element: Element, given: Constants, local: Local, mass: EffectiveMass) -> Friction:
-    w = _inverse_mass(element, mass)
+    w = inverse_mass(element, mass)
     frequency = sqrt(given.stiffness * w)
     limit = float(local.factor[element.number])
     return Friction(

@@ -114,7 +114,19 @@ def _steps(found: Analysis) -> Table:
         where = active_text(found.growing.modes)
         grows = _mode(found.growing.eigenvalue)
         remarks.append(f"{grows} grows by itself, whatever the step, in: {where}")
-    return Table(f"stable steps ({sets})", head, rows, tuple(remarks))
+    if found.unknown is not None:
+        return Table("stable steps", (), (), (f"not known: {found.unknown}", *remarks))
+    if found.mass.varies:
+        remarks.append(_elsewhere(found.along))
+    where = ", at the start" if found.mass.varies and not found.along else ""
+    return Table(f"stable steps{where} ({sets})", head, rows, tuple(remarks))
+
+
+def _elsewhere(along: int) -> str:
+    """Return where the limits hold, in a scene whose W changes."""
+    if along:
+        return f"the least at the start and in {along:,} states; W varies, and others may want less"
+    return "W varies: a state elsewhere may want less; --along RUN.npz looks at those of a run"
 
 
 def _step(step: StableStep) -> tuple[str, ...]:
@@ -161,7 +173,9 @@ def _contacts(found: Analysis) -> Table:
         )
         for c in found.contacts
     )
-    return Table("contacts, each on its own", head, *_shortened(rows))
+    shown, remarks = _shortened(rows)
+    coarse = tuple(d.message for d in found.diagnostics if d.code == "NS409")
+    return Table("contacts, each on its own", head, shown, (*remarks, *coarse))
 
 
 def _frictions(found: Analysis) -> Table:

@@ -32,7 +32,11 @@ class Analysis:
     mass : EffectiveMass
         W at the start.
     steps : tuple of StableStep
-        The largest stable step of each method; empty where constants are missing.
+        The largest stable step of each method; empty where it is not known.
+    unknown : str, optional
+        Why it is not known.
+    along : int
+        How many states besides the start were looked at.
     sets : int, optional
         How many active sets were looked at; None where they are too many to list.
     own_modes : tuple of complex
@@ -57,6 +61,8 @@ class Analysis:
     name: str
     mass: EffectiveMass
     steps: tuple[StableStep, ...]
+    unknown: str | None
+    along: int
     sets: int | None
     own_modes: tuple[complex, ...]
     growing: Unstable | None
@@ -80,10 +86,13 @@ class Analysis:
             "model": self.name,
             "stable_step": self.stable_step,
             "limits": [_limit(step) for step in self.steps],
+            "unknown": self.unknown,
+            "at": "the start" if not self.along else f"the start and {self.along} states",
             "active_sets": self.sets,
             "own_modes": [_complex(mode) for mode in self.own_modes],
             "growing": None if self.growing is None else _unstable(self.growing),
-            "effective_mass": asdict(self.mass),
+            "effective_mass": asdict(self.mass)
+            | {"asymmetric": [list(pair) for pair in self.mass.asymmetric()]},
             "contacts": [asdict(contact) for contact in self.contacts],
             "frictions": [
                 asdict(item) | {"may_resonate": item.may_resonate} for item in self.frictions

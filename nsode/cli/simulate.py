@@ -88,7 +88,7 @@ def command(
     loaded = load(model, limits, friction=friction, contact=contact)
     drawing = None if plot is None else Path(f"{loaded.name}.png" if plot == _PLOT else plot)
     _check_places(output, drawing)
-    complain([d for d in loaded.diagnostics if d.code != "NS407"], loaded.source)
+    complain([d for d in loaded.diagnostics if d.code not in ("NS407", "NS409")], loaded.source)
     wish = Wish(duration, step, every, method, tolerance=tolerance)
 
     def tell(diagnostic: Diagnostic) -> None:

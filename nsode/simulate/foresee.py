@@ -1,9 +1,9 @@
-"""What can be said of a run before it: whether its step is stable."""
+"""What can be said of a run before it: whether its step is stable, and by what margin."""
 
 from __future__ import annotations
 
 from collections import OrderedDict
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from nsode.diagnostics import Diagnostic
 from nsode.expr import Number
@@ -18,40 +18,62 @@ from nsode.ode import (
 from nsode.simulate.machine import Vector
 from nsode.simulate.settings import Settings
 
+#: A step below this share of the limit needs no guard.
+MARGIN = 0.5
+
 _KEPT = 32  # runs that are remembered
-_known: OrderedDict[tuple[object, ...], tuple[object, tuple[Diagnostic, ...]]] = OrderedDict()
+
+
+@dataclass(frozen=True, slots=True)
+class Outlook:
+    """What is said before a run, and whether its energy needs a guard."""
+
+    remarks: tuple[Diagnostic, ...]
+    doubtful: bool
+
+
+_known: OrderedDict[tuple[object, ...], tuple[object, Outlook]] = OrderedDict()
 
 
 def foreseen(
     inclusion: DifferentialInclusion, ode: AugmentedODE, settings: Settings, p: Vector
-) -> tuple[Diagnostic, ...]:
-    """Return what :func:`foresee` does, looked up where a run is repeated."""
+) -> Outlook:
+    """Return what :func:`outlook` does, looked up where a run is repeated."""
     key = (id(inclusion), id(ode), settings.method, settings.step, p.tobytes())
     if key not in _known:
         # The table holds the model itself, so that nothing else can take over its id.
-        _known[key] = ((inclusion, ode), foresee(inclusion, ode, settings, p))
+        _known[key] = ((inclusion, ode), outlook(inclusion, ode, settings, p))
         if len(_known) > _KEPT:
             _known.popitem(last=False)
     return _known[key][1]
 
 
-def foresee(
+def outlook(
     inclusion: DifferentialInclusion, ode: AugmentedODE, settings: Settings, p: Vector
-) -> tuple[Diagnostic, ...]:
-    """Return a warning where the step is beyond what the method can take.
+) -> Outlook:
+    """Return what is known of the step: NS407, NS409, or NS410 where nothing is.
 
     Parameters
     ----------
     p
         The parameters of the run, which may be others than the model's.
     """
-    from nsode.analysis import warnings
+    from nsode.analysis import foresee
 
-    chosen = _as_run(inclusion, ode, settings, p)
-    found = (d for d in warnings(chosen) if d.code == "NS407")
-    if inclusion.run.step == settings.step:
-        return tuple(found)
-    return tuple(replace(d, labels=()) for d in found)  # the step stands nowhere in the text
+    found = foresee(_as_run(inclusion, ode, settings, p), MARGIN)
+    remarks = [d for d in found.diagnostics if d.code in ("NS407", "NS409")]
+    if inclusion.run.step != settings.step:  # it stands nowhere in the text
+        remarks = [replace(d, labels=()) if d.code == "NS407" else d for d in remarks]
+    if found.unknown is not None:
+        remarks.append(_unchecked(found.unknown))
+    certain = found.limit is not None and settings.step <= MARGIN * found.limit
+    return Outlook(tuple(remarks), not certain)
+
+
+def _unchecked(why: str) -> Diagnostic:
+    message = "whether the step is stable was not checked"
+    help = "run it with half the step too: what changes much is not to be trusted"
+    return Diagnostic("NS410", message, notes=(why,), help=help, severity="note")
 
 
 def _as_run(

@@ -3,7 +3,7 @@
 Along a run, what an element stores equals what it was given less what it dissipated.
 Where a step is too large that no longer holds, and the surplus is energy from nothing.
 The books are kept by further states, integrated with the others; that takes time, so a
-run keeps them only where something was said before it.
+run keeps them only where its step is beyond half of the limit, or that is not known.
 """
 
 from __future__ import annotations

@@ -48,7 +48,9 @@ class Manner:
     strict
         Refuse what would draw a warning before the run.
     guard
-        Stop where energy comes from nothing.
+        Stop where energy comes from nothing. Books are kept where a method of fixed steps
+        takes more than half of its limit, or where that is not known; below half of it,
+        nothing is watched and nothing is paid.
     tell
         Takes warnings and notes; Python warnings unless given.
     progress
@@ -110,9 +112,9 @@ def simulate(
     p = parameters.parameters(ode, overrides or {})
     settings, remarks = settle(wish, ode.run, _columns(ode), manner.limits)
     given = inputs(ode, signals or {}, settings)
-    known = foreseen(inclusion, ode, settings, p)
-    made = scene(inclusion, ode, settings.method, watched=manner.guard and bool(known))
-    _say([*remarks, *slowly(made), *known], manner, ode)
+    before = foreseen(inclusion, ode, settings, p)
+    made = scene(inclusion, ode, settings.method, watched=manner.guard and before.doubtful)
+    _say([*remarks, *slowly(made), *before.remarks], manner, ode)
     x0 = made.machine.initial(p if len(p) else np.zeros(1))
     parameters.states(ode, x0, start or {})
     if settings.method in SOLVERS:

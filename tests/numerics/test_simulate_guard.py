@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 import nsode
-from nsode.simulate import RunError, RunWarning
+from nsode.analysis.bounces import speeds
+from nsode.integrators import REGISTRY
+from nsode.simulate import Manner, RunError, RunWarning, Wish, simulate
 from nsode.simulate.guard import Books, verdict
 from support.models import MODELS
 
@@ -45,6 +47,45 @@ def test_without_the_guard_it_goes_on_to_where_the_energy_leads():
     with pytest.warns(RunWarning, match="beyond"):
         found = model.simulate(3, 1e-3, parameters={"f.K": 5e6}, guard=False)
     assert found["p"].max() > 2  # dropped from 1 m
+
+
+def test_a_step_that_is_stable_but_too_long_for_impacts_is_announced_and_watched():
+    model = nsode.load(MODELS / "bouncing_mass.di")
+    step = 6.1e-3
+    assert step < model.analyze().stable_step["rk4"]
+    thrown = model.simulate(10, step, guard=False)
+    assert thrown["p"].max() > 2  # dropped from 1 m
+    with pytest.raises(RunError) as refusal:
+        model.simulate(10, step)
+    assert [d.code for d in refusal.value.diagnostics] == ["NS506"]
+    said = []
+    simulate(
+        model.inclusion, model.ode, Wish(1e-2, step), manner=Manner(strict=True, tell=said.append)
+    )
+    assert "NS409" in [d.code for d in said]
+
+
+def test_an_impact_without_gravity_stays_within_what_the_note_says():
+    text = (MODELS / "bouncing_mass.di").read_text().replace("fe = -9.8", "fe = 0")
+    model = nsode.loads(text.replace("state v = 0", "state v = -1"))
+    scheme, step, frequency = REGISTRY["rk4"], 4e-3, np.sqrt(1e5)
+    least, most = speeds(scheme, step * frequency, 2.0, 5e-3 * frequency)
+    speed = [
+        model.simulate(2, step, x0={"p": 1 + part * step}, guard=False)["v"][-1]
+        for part in np.linspace(0, 1, 40)
+    ]
+    assert most - least > 0.1
+    assert min(speed) == pytest.approx(least, abs=0.02)
+    assert max(speed) == pytest.approx(most, abs=0.02)
+
+
+def test_a_run_that_cannot_be_checked_says_why_and_is_watched():
+    text = (MODELS / "granular_column.di").read_text()
+    model = nsode.loads(text.replace("constant n = 10", "constant n = 400"))
+    said = []
+    simulate(model.inclusion, model.ode, Wish(1e-3), manner=Manner(tell=said.append))
+    [note] = [d for d in said if d.code == "NS410"]
+    assert "1,200 states and multipliers" in note.notes[0]
 
 
 def test_the_books_change_no_number_of_the_run():

@@ -12,7 +12,7 @@ from nsode.diagnostics import CODES, ModelError
 
 PAGES = sorted((Path(nsode.__file__).parent / "catalog").glob("NS*.md"))
 # What the text of a model does not show: sizes, and errors of a run or of the machine.
-WITHOUT_EXAMPLE = {"NS012", "NS307", "NS408", *(code for code in CODES if code[2] in "56")}
+WITHOUT_EXAMPLE = {"NS012", "NS307", "NS408", "NS410", *(code for code in CODES if code[2] in "56")}
 SHOWN = [page for page in PAGES if page.stem not in WITHOUT_EXAMPLE]
 _BLOCK = re.compile(r"^```di\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 

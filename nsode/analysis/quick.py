@@ -1,0 +1,88 @@
+"""What is said of a model on every compile and before every run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+from nsode.analysis.local import Scene
+from nsode.analysis.mass import feeding
+from nsode.analysis.outset import UNDEFINED, at_start, places, unknown
+from nsode.analysis.remarks import unresolved, unstable
+from nsode.analysis.stability import bound, half_disc
+from nsode.analysis.steps import reachable, stable_steps
+from nsode.diagnostics import Diagnostic
+from nsode.integrators import REGISTRY
+from nsode.ode import DifferentialInclusion
+
+#: States and multipliers beyond which a step is not checked on every compile.
+LARGE = 300
+#: Active sets beyond which a compile searches among them instead.
+FEW_SETS = 256
+
+
+@dataclass(frozen=True, slots=True)
+class Foreseen:
+    """What is known of the step of a model.
+
+    Attributes
+    ----------
+    diagnostics : tuple of Diagnostic
+        NS402, NS407, NS409.
+    limit : float, optional
+        A step in seconds up to which the elements are stable, infinite where no step
+        matters; None where it is not known.
+    unknown : str, optional
+        Why it is not known.
+    """
+
+    diagnostics: tuple[Diagnostic, ...] = ()
+    limit: float | None = None
+    unknown: str | None = None
+
+
+def warnings(inclusion: DifferentialInclusion) -> tuple[Diagnostic, ...]:
+    """Return what every compile should say: NS402, NS407, NS409.
+
+    Quick: it looks at the model's own method only, and at the sets only where a proven bound
+    does not already allow the step. Large models are left out.
+    """
+    return foresee(inclusion).diagnostics
+
+
+def foresee(inclusion: DifferentialInclusion, margin: float = 1.0) -> Foreseen:
+    """Return what is known of the model's own step with its own method.
+
+    Parameters
+    ----------
+    margin : float, optional
+        The limit is looked for only where the step is beyond this share of a proven bound.
+    """
+    if not inclusion.terms:
+        return Foreseen(limit=inf)
+    count = places(inclusion)
+    if count > LARGE:
+        many = f"{count:,} states and multipliers are too many to look at before each run"
+        return Foreseen(unknown=many)
+    scene = Scene(inclusion)
+    begin = at_start(scene)
+    if begin is None:
+        return Foreseen(unknown=UNDEFINED)
+    local, mass, _ = begin
+    found = tuple(feeding(scene, mass))
+    method, step = inclusion.run.method or "rk4", inclusion.run.step
+    if step is None or method not in REGISTRY:
+        return Foreseen(found, inf)
+    why = unknown(scene)
+    if why is not None:
+        return Foreseen(found, unknown=why)
+    scheme = REGISTRY[method]
+    fastest = bound(local, scene.elements, scene.constants)
+    if step * fastest <= margin * half_disc(scheme):
+        limit = half_disc(scheme) / fastest if fastest else inf
+        return Foreseen((*found, *unresolved(scene, mass)), limit)
+    steps = stable_steps([reachable(scene, local, most=FEW_SETS)], {method: scheme})
+    if method not in steps:
+        return Foreseen(found, unknown="no active set has finite modes")
+    said = unstable(inclusion, steps) or unresolved(scene, mass)
+    return Foreseen((*found, *said), steps[method].found)
