@@ -16,6 +16,7 @@ from nsode.simulate.guard import Books, with_books
 from nsode.simulate.machine import Machine
 from nsode.simulate.native import load
 from nsode.simulate.observe import Observed, observe
+from nsode.simulate.stack import too_large_for_the_stack
 from nsode.simulate.virtual import virtual
 
 _KEPT = 32  # models that are remembered
@@ -74,6 +75,9 @@ def _made(
     compiled = (*REGISTRY, *PAIRS, *SPLITTINGS)
     stepped = method if method in compiled else next(iter(REGISTRY))
     if using is not None:
+        crowded = too_large_for_the_stack(observed.ode)
+        if crowded is not None:
+            raise ModelError([crowded])
         return Scene(
             observed, load(observed.ode, library(observed.ode, stepped, using)), using, books
         )
