@@ -104,6 +104,8 @@ class Tracer:
                 terms = [self.expr(body, {**at, variable: k}) for k in range(first, last + 1)]
                 scale = len(terms) * sum(term.scale for term in terms)
                 return Running(sum(term.value for term in terms), scale)
+            case Call("mod", (a, b)):
+                return _mod(self.expr(a, at), self.expr(b, at))
             case Call(function, args):
                 return _call(function, [self.expr(arg, at) for arg in args])
         raise NotImplementedError(type(expr).__name__)
@@ -130,6 +132,18 @@ def _call(function: str, args: list[Running]) -> Running:
     return Running(value, abs(value) + passed)
 
 
+def _mod(a: Running, b: Running) -> Running:
+    value = apply("mod", a.value, b.value)
+    quotient = apply("/", a.value, b.value)
+    if not np.isfinite(quotient):
+        return Running(value, np.inf)
+    # Where rounding decides between two turns, the value may be 0 or b.
+    blur = (a.scale + abs(quotient) * b.scale) / abs(b.value) + abs(quotient)
+    if abs(quotient - round(quotient)) <= 4 * np.finfo(float).eps * blur:
+        return Running(value, np.inf)
+    return Running(value, abs(value) + a.scale + (abs(quotient) + 1) * b.scale)
+
+
 def _slopes(function: str, v: list[float], value: float) -> list[float]:
     """Return the magnitude of the derivative by each argument (a bound where it has kinks)."""
     match function:
@@ -153,8 +167,6 @@ def _slopes(function: str, v: list[float], value: float) -> list[float]:
             return [math.cosh(v[0])]
         case "atan2":
             return [1 / math.hypot(*v)] * 2
-        case "mod":
-            return [1.0, abs(v[0] / v[1]) + 1]
         case _:
             return [1.0] * len(v)
 
