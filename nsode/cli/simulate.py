@@ -84,11 +84,12 @@ def command(
     written; 130: Ctrl-C. Rows before that are kept.
     """
     from nsode.simulate import Manner, RunError, Wish
+    from nsode.simulate.foresee import TOLD
 
     loaded = load(model, limits, friction=friction, contact=contact)
     drawing = None if plot is None else Path(f"{loaded.name}.png" if plot == _PLOT else plot)
     _check_places(output, drawing)
-    complain([d for d in loaded.diagnostics if d.code not in ("NS407", "NS409")], loaded.source)
+    complain([d for d in loaded.diagnostics if d.code not in TOLD], loaded.source)
     wish = Wish(duration, step, every, method, tolerance=tolerance)
 
     def tell(diagnostic: Diagnostic) -> None:

@@ -59,6 +59,17 @@ def compiler() -> Compiler | None:
     return None
 
 
+def overlooked() -> list[Diagnostic]:
+    """Return a note where ``CC`` names a compiler that is not there."""
+    named = shlex.split(os.environ.get("CC", ""))
+    if not named or shutil.which(named[0]) is not None:
+        return []
+    found = compiler()
+    used = "no other was found" if found is None else f"`{found.command[0]}` is used"
+    message = f"CC names `{named[0]}`, which is not there; {used}"
+    return [Diagnostic("NS509", message, severity="note")]
+
+
 def library(ode: AugmentedODE, method: str, using: Compiler) -> Path:
     """Return the compiled library of a model and a method, from the cache if it is there.
 

@@ -70,7 +70,7 @@ def obtain(key: str, build: Callable[[Path], Path]) -> Path:
 
 
 def clear() -> Cleared:
-    """Remove every entry.
+    """Remove every entry; the folder of a build that may still go on stays.
 
     Raises
     ------
@@ -84,8 +84,7 @@ def clear() -> Cleared:
     size = sum(entry.lstat().st_size for entry in entries)
     for entry in entries:
         entry.unlink(missing_ok=True)
-    for workshop in home.glob(f"{_BUILDS}*"):
-        shutil.rmtree(workshop, ignore_errors=True)
+    _sweep(home)
     return Cleared(len(entries), size)
 
 
@@ -139,12 +138,16 @@ def _digest(path: Path) -> str:
 
 def _tidy(home: Path) -> None:
     """Remove what a killed build left behind, and the entries unused for longest."""
-    for workshop in home.glob(f"{_BUILDS}*"):
-        if _age(workshop) > _STALE:
-            shutil.rmtree(workshop, ignore_errors=True)
+    _sweep(home)
     entries = sorted(home.glob("*.so"), key=_age)
     for entry in entries[_MOST:]:
         entry.unlink(missing_ok=True)
+
+
+def _sweep(home: Path) -> None:
+    for workshop in home.glob(f"{_BUILDS}*"):
+        if _age(workshop) > _STALE:
+            shutil.rmtree(workshop, ignore_errors=True)
 
 
 def _age(path: Path) -> float:

@@ -18,6 +18,9 @@ from nsode.ode import (
 from nsode.simulate.machine import Vector
 from nsode.simulate.settings import Settings
 
+#: What the run says with its own parameters, and need not be said of the model's before it.
+TOLD = ("NS402", "NS407", "NS409")
+
 #: A step below this share of the limit needs no guard.
 MARGIN = 0.5
 
@@ -61,7 +64,7 @@ def outlook(
     from nsode.analysis import foresee
 
     found = foresee(_as_run(inclusion, ode, settings, p), MARGIN)
-    remarks = [d for d in found.diagnostics if d.code in ("NS407", "NS409")]
+    remarks = [d for d in found.diagnostics if d.code in TOLD]
     if inclusion.run.step != settings.step:  # it stands nowhere in the text
         remarks = [replace(d, labels=()) if d.code == "NS407" else d for d in remarks]
     if found.unknown is not None:

@@ -6,7 +6,7 @@ recorded data it is interpolated.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -54,6 +54,7 @@ def inputs(ode: AugmentedODE, given: Mapping[str, Signal], settings: Settings) -
     """
     names = element_names(ode.inputs)
     defaults = [item.default for item in ode.inputs for _ in range(size(item))]
+    given = _spread(names, given)
     for name in given:
         if name not in names:
             listed = ", ".join(f"`{known}`" for known in names) or "none"
@@ -78,6 +79,15 @@ def inputs(ode: AugmentedODE, given: Mapping[str, Signal], settings: Settings) -
         elif signal is not None:
             varying.append((place, _recorded(name, signal, settings)))
     return Inputs(constant, tuple(varying))
+
+
+def _spread(names: Sequence[str], given: Mapping[str, Signal]) -> dict[str, Signal]:
+    """Return a signal for each component where one was given for a whole vector or family."""
+    found: dict[str, Signal] = {}
+    for name, signal in given.items():
+        parts = [known for known in names if known.startswith((f"{name}.", f"{name}["))]
+        found |= dict.fromkeys(parts or [name], signal)
+    return found | {name: signal for name, signal in given.items() if name in names}
 
 
 def read(path: Path, name: str) -> tuple[Vector, Vector]:
@@ -147,7 +157,10 @@ def _sampled(name: str, signal: Callable[[Vector], ArrayLike]) -> Callable[[Vect
 def _recorded(
     name: str, signal: tuple[ArrayLike, ArrayLike], settings: Settings
 ) -> Callable[[Vector], Vector]:
-    times, values = (np.asarray(part, dtype=np.float64) for part in signal)
+    try:
+        times, values = (np.asarray(part, dtype=np.float64) for part in signal)
+    except (TypeError, ValueError):
+        raise _unusable(name, "are no number, no times and values, and no function") from None
     if times.ndim != 1 or times.shape != values.shape or not len(times):
         raise _unusable(name, "wants as many times as values, one or more")
     if not (np.all(np.isfinite(times)) and np.all(np.isfinite(values))):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from numbers import Real
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,7 +107,7 @@ def _overrides(ode: AugmentedODE, given: Mapping[str, Value]) -> dict[str, list[
     }
     found: dict[str, list[float]] = {}
     for name, value in given.items():
-        numbers = [_finite(name, number) for number in np.atleast_1d(np.asarray(value)).tolist()]
+        numbers = [_finite(name, number) for number in np.ravel(np.asarray(value, dtype=object))]
         if name in slots:
             item = next(item for item in ode.parameters if item.name == name)
             found[name] = _spread(name, numbers, size(item))
@@ -128,9 +129,9 @@ def _spread(name: str, numbers: list[float], count: int) -> list[float]:
     return numbers
 
 
-def _finite(name: str, value: float) -> float:
-    if not math.isfinite(value):
-        raise ModelError([Diagnostic("NS501", f"`{name}` must be a finite number, not {value:g}")])
+def _finite(name: str, value: object) -> float:
+    if not (isinstance(value, Real) and math.isfinite(value)):
+        raise ModelError([Diagnostic("NS501", f"`{name}` must be a finite number, not {value!r}")])
     return float(value)
 
 
@@ -138,11 +139,13 @@ def _unknown(what: str, name: str, known: Iterable[str]) -> Diagnostic:
     distinct = list(dict.fromkeys(known))
     listed = ", ".join(f"`{other}`" for other in distinct[:12]) or "none"
     more = ", ..." if len(distinct) > 12 else ""
+    parts = [other for other in distinct if other.startswith(f"{name}.")]
+    whole = f"its components are {', '.join(f'`{part}`' for part in parts)}" if parts else None
     return Diagnostic(
         "NS101",
         f"there is no {what} `{name}`",
         notes=(f"the {what}s are {listed}{more}",),
-        help=suggest(name, distinct),
+        help=whole or suggest(name, distinct),
     )
 
 

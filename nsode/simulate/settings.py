@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from importlib.util import find_spec
+from numbers import Integral, Real
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,15 +105,15 @@ def settle(
         *_unsound("step", step),
         *_unknown(method, None if wish.method else run),
     ]
-    if not math.isfinite(wish.start):
-        message = f"the start of a run is a finite time, not {wish.start:g}"
+    if not _is_finite(wish.start):
+        message = f"the start of a run is a finite time, not {wish.start!r}"
         problems.append(Diagnostic("NS501", message))
-    if wish.every is not None and wish.every < 1:
-        message = f"rows are stored every 1 or more steps, not every {wish.every}"
+    if wish.every is not None and not (isinstance(wish.every, Integral) and wish.every >= 1):
+        message = f"rows are stored every 1 or more whole steps, not every {wish.every}"
         problems.append(Diagnostic("NS501", message))
     tolerance = _USUAL_TOLERANCE if wish.tolerance is None else wish.tolerance
-    if not 1e-15 < tolerance < 1:
-        message = f"a tolerance lies between 1e-15 and 1, {tolerance:g} does not"
+    if not (_is_finite(tolerance) and 1e-15 < tolerance < 1):
+        message = f"a tolerance lies between 1e-15 and 1, {tolerance!r} does not"
         problems.append(Diagnostic("NS501", message))
     if problems or duration is None or step is None:
         raise ModelError(problems)
@@ -151,10 +152,14 @@ def _missing(duration: float | None, step: float | None) -> list[Diagnostic]:
     ]
 
 
+def _is_finite(value: object) -> bool:
+    return isinstance(value, Real) and math.isfinite(value)
+
+
 def _unsound(what: str, value: float | None) -> list[Diagnostic]:
-    if value is None or (math.isfinite(value) and value > 0):
+    if value is None or (_is_finite(value) and value > 0):
         return []
-    message = f"the {what} of a run must be a finite number greater than 0, not {value:g}"
+    message = f"the {what} of a run must be a finite number greater than 0, not {value!r}"
     return [Diagnostic("NS501", message)]
 
 

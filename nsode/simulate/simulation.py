@@ -16,6 +16,7 @@ from nsode.integrators import REGISTRY
 from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.ode import AugmentedODE, DifferentialInclusion, Output, State, element_names, size
 from nsode.simulate import failure, parameters, solvers
+from nsode.simulate.build import overlooked
 from nsode.simulate.foresee import foreseen
 from nsode.simulate.guard import verdict
 from nsode.simulate.inputs import Signal, inputs
@@ -114,7 +115,7 @@ def simulate(
     given = inputs(ode, signals or {}, settings)
     before = foreseen(inclusion, ode, settings, p)
     made = scene(inclusion, ode, settings.method, watched=manner.guard and before.doubtful)
-    _say([*remarks, *slowly(made), *before.remarks], manner, ode)
+    _say([*remarks, *overlooked(), *slowly(made), *before.remarks], manner, ode)
     x0 = made.machine.initial(p if len(p) else np.zeros(1))
     parameters.states(ode, x0, start or {})
     if settings.method in SOLVERS:

@@ -92,6 +92,8 @@ def test_a_duration_or_a_step_that_is_no_positive_number_is_refused(which, value
     ("wish", "code"),
     [
         ({"every": 0}, "NS501"),
+        ({"every": 2.5}, "NS501"),
+        ({"step": "1e-3"}, "NS501"),
         ({"start": math.nan}, "NS501"),
         ({"method": "rk5"}, "NS501"),
         ({"duration": 0.01}, "NS501"),
@@ -165,6 +167,8 @@ def test_elements_of_a_family_are_set_one_by_one_or_all_at_once():
     [
         ({"parameters": {"kk": 1}}, "NS101"),
         ({"parameters": {"k": math.nan}}, "NS501"),
+        ({"parameters": {"k": "1"}}, "NS501"),
+        ({"parameters": {"k": None}}, "NS501"),
         ({"x0": {"v": 1}}, "NS101"),
         ({"x0": {"p": math.inf}}, "NS501"),
         ({"inputs": {"f": 1}}, "NS101"),
@@ -355,3 +359,31 @@ def test_elements_without_a_name_are_recorded_too():
     assert found["sgn1"][1000] == 0.5
     assert found.mode("sgn1")[1000] == Mode.SLIP
     assert found.mode("sgn1")[-1] == Mode.STICK
+
+
+WIND = """model wind
+input w[2]
+state x = 0
+state y = 0
+der(x) = w.x
+der(y) = w.y
+simulate 1 step 0.5
+"""
+
+
+def test_a_value_of_a_whole_vector_is_that_of_each_component_that_has_no_other():
+    found = nsode.loads(WIND).simulate(inputs={"w": 3, "w.y": 4})
+    assert found.x[-1].tolist() == [3, 4]
+
+
+def test_a_mistake_in_case_alone_is_the_first_guess():
+    with pytest.raises(ModelError) as refusal:
+        nsode.loads(WIND).simulate(inputs={"w": 0}, method="RK4")
+    assert refusal.value.diagnostics[0].help == "did you mean `rk4`?"
+
+
+def test_a_mass_that_an_override_makes_negative_feeds_energy_before_it_diverges():
+    model = nsode.load(MODELS / "bouncing_mass.di")
+    with pytest.raises(ModelError) as refusal:
+        model.simulate(parameters={"M": -1}, strict=True)
+    assert [d.code for d in refusal.value.diagnostics] == ["NS402"]

@@ -13,6 +13,7 @@ import pytest
 import nsode
 from nsode.diagnostics import ModelError
 from nsode.simulate import build, cache
+from nsode.simulate.build import overlooked
 
 TEXT = "model m\nparameter k = 1\nstate p = 1\nder(p) = -k*p\nsimulate 1 step 0.1\n"
 END = 0.9**10  # by Euler
@@ -157,11 +158,28 @@ def test_clear_removes_every_entry_and_what_a_killed_build_left(home):
     run()
     (home / "build-left").mkdir()
     (home / "build-left" / "scene.c").write_text("")
+    os.utime(home / "build-left", (0, 0))
     found = cache.clear()
     assert found.entries == 1
     assert found.size > 0
     assert list(home.iterdir()) == []
     assert cache.clear() == (0, 0)
+
+
+def test_clear_leaves_a_build_that_may_still_go_on(home):
+    run()
+    (home / "build-now").mkdir()
+    assert cache.clear().entries == 1
+    assert [path.name for path in home.iterdir()] == ["build-now"]
+
+
+def test_a_compiler_in_cc_that_is_not_there_is_named(home, monkeypatch):
+    monkeypatch.setenv("CC", "no-such-compiler -O1")
+    [said] = overlooked()
+    assert (said.code, said.severity) == ("NS509", "note")
+    assert "no-such-compiler" in said.message
+    monkeypatch.delenv("CC")
+    assert overlooked() == []
 
 
 def test_a_relative_cache_folder_is_ignored(monkeypatch, tmp_path):
