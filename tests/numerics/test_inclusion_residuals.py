@@ -18,14 +18,14 @@ from support.models import MODELS
 from support.native import run_tool
 
 POINTS, CHUNK = 1_000_000, 100_000
-EPS = np.finfo(float).eps
 
 DRIVER = """
 #include "{name}.h"
-void batch(long n, const double *x, const double *p, double *dx, double *y);
-void batch(long n, const double *x, const double *p, double *dx, double *y)
+typedef {name}_real real;
+void batch(long n, const real *x, const real *p, real *dx, real *y);
+void batch(long n, const real *x, const real *p, real *dx, real *y)
 {{
-    const double u[1] = {{0}};
+    const real u[1] = {{0}};
     for (long k = 0; k < n; ++k) {{
         {name}_rhs(0, x + k*{name}_NX, u, p, dx + k*{name}_NX);
         {name}_out(0, x + k*{name}_NX, u, p, y + k*{name}_NY);
@@ -69,10 +69,10 @@ SLIPS: dict[str, dict[str, Callable]] = {
 
 @pytest.fixture(scope="session")
 def batch(compile_c):
-    """Return ``batch(name)``: rates and outputs of many states at once."""
+    """Return ``batch(name, real)``: rates and outputs of many states at once."""
 
-    def load(name: str):
-        native = compile_c(MODELS / f"{name}.di")
+    def load(name: str, real: str):
+        native = compile_c(MODELS / f"{name}.di", real=real)
         driver = native.folder / "driver.c"
         driver.write_text(DRIVER.format(name=name))
         library = native.folder / "batch.so"
@@ -83,7 +83,7 @@ def batch(compile_c):
         p = native.p0
 
         def call(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            dx, y = np.empty_like(x), np.empty((len(x), len(native.y_names)))
+            dx, y = np.empty_like(x), np.empty((len(x), len(native.y_names)), native.dtype)
             pointers = [a.ctypes.data_as(ctypes.c_void_p) for a in (x, p, dx, y)]
             run(ctypes.c_long(len(x)), *pointers)
             return dx, y
@@ -125,17 +125,20 @@ def contact_residual(psi, e, de, alpha, beta) -> np.ndarray:
     return off / (np.abs(psi) + np.abs(e) + (alpha + beta) * np.abs(de) + np.finfo(float).tiny)
 
 
+@pytest.mark.parametrize("real", ["double", "float"])
 @pytest.mark.parametrize("name", GAPS)
-def test_the_inclusions_hold_to_two_eps_of_scale_on_the_compiled_c(name, batch):
-    native, call = batch(name)
-    p = dict(zip(element_names(native.ode.parameters), native.p0, strict=True))
+def test_the_inclusions_hold_to_two_eps_of_scale_on_the_compiled_c(name, real, batch):
+    native, call = batch(name, real)
+    eps = np.finfo(native.dtype).eps
+    p0 = native.p0.astype(float)
+    p = dict(zip(element_names(native.ode.parameters), p0, strict=True))
     rng = np.random.default_rng(1)
     worst = 0.0
     for _ in range(POINTS // CHUNK):
-        rows = states(native.x_names, rng)
-        dx, y = call(rows)
+        rows = states(native.x_names, rng).astype(native.dtype)
+        dx, y = (found.astype(float) for found in call(rows))
         assert np.isfinite(dx).all()
-        x = dict(zip(native.x_names, rows.T, strict=True))
+        x = dict(zip(native.x_names, rows.T.astype(float), strict=True))
         d = dict(zip(native.x_names, dx.T, strict=True))
         out = dict(zip(native.y_names, y.T, strict=True))
         for term, gap in GAPS[name].items():
@@ -154,8 +157,8 @@ def test_the_inclusions_hold_to_two_eps_of_scale_on_the_compiled_c(name, batch):
                 found = slip_residual(theta, level, a, da, p[f"{term}.beta"])
             worst = max(worst, np.nanmax(found))
             force = np.sqrt(sum(out[f"{term}{s}"] ** 2 for s in suffixes))
-            assert (force <= chi * (1 + 4 * EPS)).all()
-    assert worst <= 2 * EPS
+            assert (force <= chi * (1 + 4 * eps)).all()
+    assert worst <= 2 * eps
 
 
 def test_a_model_without_constants_still_compiles_and_its_p0_says_so(compile_c):
