@@ -53,7 +53,7 @@ def _unresolved(
     exact, least, most = restitution
     run = scene.inclusion.run
     term = next(e.term for e in scene.elements if e.name == name)
-    seen = f"of the speed before, {least:.2g} to {most:.2g} comes back"
+    seen = f"of the speed before, {least:.3g} to {most:.3g} comes back"
     return Diagnostic(
         "NS409",
         f"a step of {run.step:g} s does not resolve the impacts of `{name}`: {seen}",

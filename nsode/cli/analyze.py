@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from nsode.cli.model import limit_option, load
+from nsode.cli.model import law_options, limit_option, load
 from nsode.cli.terminal import complain, say
 from nsode.limits import Limits
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from nsode.compiler import Model
+
+_MOST = 100  # states of a run that are looked at
 
 
 @click.command()
@@ -21,17 +31,46 @@ from nsode.limits import Limits
     "--impact-speed", type=click.FloatRange(min=0, min_open=True), metavar="M/S",
     help="Of the impacts that are shown.  [default: the first from the start]",
 )  # fmt: skip
+@click.option(
+    "--along", "run", type=click.Path(path_type=Path), metavar="RUN.npz",
+    help=f"Look also at {_MOST} states of a run that was saved.",
+)  # fmt: skip
+@law_options
 @limit_option
-def command(model: str, style: str, impact_speed: float | None, limits: Limits) -> int:
+def command(
+    model: str,
+    style: str,
+    impact_speed: float | None,
+    run: Path | None,
+    friction: str | None,
+    contact: str | None,
+    limits: Limits,
+) -> int:
     """Show what is known of MODEL before it runs.
 
     Effective mass, the largest stable step of each method and what limits it, restitution,
     penetration and presliding, and what the scene could do without.
     """
-    loaded = load(model, limits)
-    found = loaded.analyze(impact_speed=impact_speed)
+    loaded = load(model, limits, friction=friction, contact=contact)
+    states = () if run is None else _states(loaded, run)
+    found = loaded.analyze(along=states, impact_speed=impact_speed)
     said = {(d.code, d.message) for d in loaded.diagnostics}
     fresh = [d for d in found.diagnostics if (d.code, d.message) not in said]
     complain([*loaded.diagnostics, *fresh], loaded.source)
     say(json.dumps(found.as_json()) if style == "json" else str(found))
     return 0
+
+
+def _states(model: Model, path: Path) -> NDArray[np.float64]:
+    """Return states of a saved run from its start to its end, as many as are looked at."""
+    import numpy as np
+
+    from nsode.ode import element_names
+    from nsode.simulate.storage import load as saved
+
+    run = saved(path)
+    names = element_names(model.inclusion.states)
+    if list(run.x_names[: len(names)]) != list(names):
+        raise click.UsageError(f"`{path}` is no run of `{model.name}`: its states are others")
+    rows = np.unique(np.linspace(0, len(run) - 1, min(len(run), _MOST)).astype(int))
+    return run.x[rows, : len(names)]

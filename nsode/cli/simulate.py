@@ -57,6 +57,10 @@ _PLOT = "-"  # what `--plot` without a file stands for
     "--plot", is_flag=False, flag_value=_PLOT, metavar="[FILE]",
     help="Draw it.  [default file: MODEL.png]",
 )  # fmt: skip
+@click.option(
+    "--ledger", is_flag=True,
+    help="Store also what each element stores, dissipates and is given.",
+)  # fmt: skip
 @click.option("--strict", is_flag=True, help="Refuse what draws a warning before the run.")
 @click.option("--no-guard", is_flag=True, help="Go on where energy comes from nothing.")
 @law_options
@@ -72,6 +76,7 @@ def command(
     every: int | None,
     output: Path | None,
     plot: str | None,
+    ledger: bool,
     strict: bool,
     no_guard: bool,
     friction: str | None,
@@ -87,6 +92,8 @@ def command(
     from nsode.simulate.foresee import TOLD
 
     loaded = load(model, limits, friction=friction, contact=contact)
+    if ledger:
+        loaded = loaded.with_ledger()
     drawing = None if plot is None else Path(f"{loaded.name}.png" if plot == _PLOT else plot)
     _check_places(output, drawing)
     complain([d for d in loaded.diagnostics if d.code not in TOLD], loaded.source)
@@ -182,7 +189,9 @@ def _write(trajectory: Trajectory, output: Path | None, drawing: Path | None) ->
             say(quiet(f"wrote {output}"))
         if drawing is not None:
             trajectory.plot(file=drawing)
-            say(quiet(f"wrote {drawing}"))
+            from nsode.simulate.plot import left_out
+
+            say(quiet(f"wrote {drawing}{left_out(trajectory)}"))
     except OSError as error:
         complain([io_diagnostic("NS602", error)])
         return USAGE

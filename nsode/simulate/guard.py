@@ -88,7 +88,7 @@ def with_books(
             kept,
             states=(*ode.states, *states),
             rates=(*ode.rates, *rates),
-            outputs=(*ode.outputs, *stored),
+            outputs=(*ode.outputs, *(replace(o, name=_held(o)) for o in stored)),
         ),
         books,
     )
@@ -115,6 +115,11 @@ def verdict(books: Books, t: NDArray[np.float64], xs: Vector, ys: Vector) -> Dia
 
 def _balance(output: Output) -> str:
     return output.name.replace(".given", ".balance")
+
+
+def _held(output: Output) -> str:
+    """Return another name than that of a ledger which the model may have."""
+    return output.name.replace(".stored", ".held")
 
 
 def _moved(output: Output) -> str:

@@ -31,7 +31,7 @@ STYLE: dict[Any, Any] = {
     "svg.hashsalt": "nsode",
 }
 
-_MOST_PANELS = 8
+_MOST_PANELS, _MOST_MODES = 8, 12
 _LOOKS = {Mode.CONTACT: "0.55", Mode.STICK: "0.25", Mode.SLIP: "0.85"}
 
 
@@ -49,9 +49,9 @@ def plot(trajectory: Trajectory, names: Sequence[str] = (), file: Path | None = 
 
     from nsode.simulate.figure import Figure
 
-    panels = [[name] for name in names] or _panels(trajectory)
+    panels = [[name] for name in names] or _panels(trajectory)[:_MOST_PANELS]
     bands = bool(trajectory.mode_names)
-    heights = [1.0] * len(panels) + [0.16 * min(12, len(trajectory.mode_names))] * bands
+    heights = [1.0] * len(panels) + [0.16 * min(_MOST_MODES, len(trajectory.mode_names))] * bands
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.3, 0.5 + 1.35 * sum(heights)), layout="constrained")
         axes = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)
@@ -64,6 +64,15 @@ def plot(trajectory: Trajectory, names: Sequence[str] = (), file: Path | None = 
         if file is not None:
             write(figure, file)
     return figure
+
+
+def left_out(trajectory: Trajectory) -> str:
+    """Return what a figure of a whole run has no room for, empty where it shows all."""
+    things = (
+        (len(_panels(trajectory)) - _MOST_PANELS, "of the states and outputs"),
+        (len(trajectory.mode_names) - _MOST_MODES, "of the elements"),
+    )
+    return "".join(f", without {more:,} {what}" for more, what in things if more > 0)
 
 
 def write(figure: Figure, file: Path) -> None:
@@ -105,7 +114,7 @@ def shade(axis: Axes, trajectory: Trajectory, element: str, mode: Mode = Mode.CO
 def _mode_panel(axis: Axes, trajectory: Trajectory) -> None:
     from matplotlib.patches import Patch
 
-    names = trajectory.mode_names[:12]
+    names = trajectory.mode_names[:_MOST_MODES]
     seen: set[Mode] = set()
     for level, name in enumerate(reversed(names)):
         codes = trajectory.mode(name)
@@ -135,7 +144,7 @@ def _panels(trajectory: Trajectory) -> list[list[str]]:
     for name in (*trajectory.x_names, *trajectory.y_names):
         if name not in auxiliary:
             groups.setdefault(_stem(name), []).append(name)
-    return list(groups.values())[:_MOST_PANELS]
+    return list(groups.values())
 
 
 def _stem(name: str) -> str:

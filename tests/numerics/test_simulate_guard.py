@@ -112,3 +112,12 @@ def test_the_verdict_warns_from_one_percent_and_stops_from_ten():
     assert said(-0.5) is None
     assert said(0.05).severity == "warning"
     assert said(0.15).severity == "error"
+
+
+def test_the_guard_and_the_ledger_keep_the_same_books():
+    model = nsode.load(MODELS / "bouncing_mass.di").with_ledger()
+    watched = model.simulate(0.5, 4e-3)
+    alone = model.simulate(0.5, 4e-3, guard=False)
+    assert watched.y_names == alone.y_names
+    assert np.array_equal(watched.y, alone.y)
+    assert watched["f.stored"].max() > 1
