@@ -123,7 +123,7 @@ def _at(item: object, k: int | None) -> dict[str, int]:
 
 def _call(function: str, args: list[Running]) -> Running:
     values = [a.value for a in args]
-    value = apply(function, *values)
+    value = _ieee(function, values)
     try:
         slopes = _slopes(function, values, value)
     except (OverflowError, ValueError, ZeroDivisionError):
@@ -142,6 +142,16 @@ def _mod(a: Running, b: Running) -> Running:
     if abs(quotient - round(quotient)) <= 4 * np.finfo(float).eps * blur:
         return Running(value, np.inf)
     return Running(value, abs(value) + a.scale + (abs(quotient) + 1) * b.scale)
+
+
+def _ieee(function: str, values: list[float]) -> float:
+    with np.errstate(all="ignore"):
+        match function:
+            case "^":
+                return float(np.float64(values[0]) ** values[1])
+            case "sinh":
+                return float(np.sinh(values[0]))
+    return apply(function, *values)
 
 
 def _slopes(function: str, v: list[float], value: float) -> list[float]:
