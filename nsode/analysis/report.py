@@ -204,7 +204,9 @@ def _shortened(
 
 
 def _rest(found: Analysis) -> Table:
-    remarks = ["no element creates energy" if found.passive else "energy may be created"]
+    remarks = []
+    if found.unknown is None or not found.passive:
+        remarks.append("no element creates energy" if found.passive else "energy may be created")
     if found.unread:
         remarks.append("no force and no output depends on " + ", ".join(found.unread))
     remarks += [f"{a} and {b} act at one and the same place" for a, b in found.coinciding]

@@ -56,6 +56,8 @@ def mapped_restitution(ratio: float, kappa: float) -> float:
 def impact(ratio: float, kappa: float, weight: float) -> Impact:
     """Return what an impact at speed 1 does, in units where ``sqrt(K W)`` is 1.
 
+    All is NaN where the constants are too far apart for double precision.
+
     Parameters
     ----------
     ratio, kappa : float
@@ -63,10 +65,17 @@ def impact(ratio: float, kappa: float, weight: float) -> Impact:
     weight : float
         ``g/(v sqrt(K W))``: the acceleration that presses the contact, without unit.
     """
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        return _impact(ratio, kappa, weight)
+
+
+def _impact(ratio: float, kappa: float, weight: float) -> Impact:
     system = _system(ratio, kappa, weight)
     times = _grid(ratio * kappa, weight)
     begin = np.array([0.0, -1.0, 0.0, 1.0])
     path = exponential(system[None] * times[:, None, None]) @ begin
+    if not np.isfinite(path).all():
+        return Impact(np.nan, np.nan, np.nan, np.nan)
     force = path @ _force(ratio)
     ends = np.flatnonzero(force[1:] <= 0)
     if not len(ends):

@@ -47,7 +47,8 @@ class Analysis:
     contacts, frictions : tuples
         Each element on its own.
     passive : bool
-        Whether no element can create energy: alpha <= beta, and W is symmetric.
+        Whether no element of the paper's law can create energy: alpha <= beta, and W is
+        symmetric.
     unread : tuple of str
         States on which no force and no output depends.
     coinciding : tuple of pairs of str

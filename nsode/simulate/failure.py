@@ -46,7 +46,8 @@ def cause(
             "NS504",
             f"{names} no longer finite {where}",
             notes=(kept,),
-            help="choose a smaller step; a model that truly grows without bound has no more to say",
+            help="choose a smaller step, or look at the signs of parameters and forces; "
+            "a model that truly grows without bound has no more to say",
         )
     if found.status == SINGULAR:
         message = f"the mass matrix is singular {where}"

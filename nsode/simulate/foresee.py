@@ -64,13 +64,20 @@ def outlook(
     from nsode.analysis import foresee
 
     found = foresee(_as_run(inclusion, ode, settings, p), MARGIN)
-    remarks = [d for d in found.diagnostics if d.code in TOLD]
+    remarks = [_of_signs(d) for d in found.diagnostics if d.code in TOLD]
     if inclusion.run.step != settings.step:  # it stands nowhere in the text
         remarks = [replace(d, labels=()) if d.code == "NS407" else d for d in remarks]
     if found.unknown is not None:
         remarks.append(_unchecked(found.unknown))
     certain = found.limit is not None and settings.step <= MARGIN * found.limit
     return Outlook(tuple(remarks), not certain)
+
+
+def _of_signs(found: Diagnostic) -> Diagnostic:
+    """Return a warning of fed energy that also tells of parameters, which a run can change."""
+    if found.code != "NS402":
+        return found
+    return replace(found, help=f"{found.help}; a parameter of the wrong sign does the same")
 
 
 def _unchecked(why: str) -> Diagnostic:

@@ -395,3 +395,52 @@ def test_the_command_prints_the_table_or_json():
     assert "rk4" in shown.stdout
     plain = CliRunner().invoke(command, [model, "--format", "json"], standalone_mode=False)
     assert json.loads(plain.stdout)["stable_step"]["rk4"] == pytest.approx(0.0067777, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("change", "into", "why"),
+    [
+        ("approximate", "# approximate", "no constants"),
+        ("K = 1e5", "K = 1e70", "no number that is of use"),
+    ],
+)
+def test_where_there_are_no_steps_the_reason_stands_in_their_place(change, into, why):
+    text = BY_NAME["bouncing_mass"].read_text()
+    assert change in text
+    found = nsode.loads(text.replace(change, into)).analyze()
+    assert found.steps == ()
+    assert why in found.unknown
+    assert f"not known: {found.unknown}" in str(found)
+    assert found.as_json()["unknown"] == found.unknown
+
+
+def test_constants_too_far_apart_for_their_numbers_leave_no_warning_of_the_machine():
+    text = BY_NAME["bouncing_mass"].read_text().replace("K = 1e5", "K = 1e59")
+    [contact] = nsode.loads(text).analyze().contacts
+    assert np.isnan(contact.mapped_restitution) or 0 <= contact.mapped_restitution <= 1
+
+
+def test_a_run_tells_where_else_the_step_was_looked_at(tmp_path):
+    from nsode.cli.analyze import command
+
+    text = """model crank
+state th = 0
+state w = 1
+force N = dio(1.2 - th^2)
+der(th) = w
+der(w) = -2*th*N
+approximate N: K = 1e6, alpha = 2.8e-3, beta = 4e-3
+simulate 0.5 step 1e-4
+"""
+    model = nsode.loads(text)
+    assert "at the start" in str(model.analyze())
+    (tmp_path / "crank.di").write_text(text)
+    model.simulate(every=100).save(tmp_path / "run.npz")
+    args = [str(tmp_path / "crank.di"), "--format", "json"]
+    shown = CliRunner().invoke(command, args, standalone_mode=False)
+    along = [*args, "--along", str(tmp_path / "run.npz")]
+    looked = CliRunner().invoke(command, along, standalone_mode=False)
+    here, there = json.loads(shown.stdout), json.loads(looked.stdout)
+    assert here["at"] == "the start"
+    assert there["at"] == "the start and 51 states"
+    assert there["stable_step"]["rk4"] < here["stable_step"]["rk4"]
