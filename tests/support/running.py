@@ -133,7 +133,7 @@ def _call(function: str, args: list[Running]) -> Running:
 
 
 def _mod(a: Running, b: Running) -> Running:
-    value = apply("mod", a.value, b.value)
+    value = _ieee("mod", [a.value, b.value])
     quotient = apply("/", a.value, b.value)
     if not np.isfinite(quotient):
         return Running(value, np.inf)
@@ -151,6 +151,9 @@ def _ieee(function: str, values: list[float]) -> float:
                 return float(np.float64(values[0]) ** values[1])
             case "sinh":
                 return float(np.sinh(values[0]))
+            case "mod":
+                a, b = map(np.float64, values)
+                return float(a - b * np.floor(a / b))
     return apply(function, *values)
 
 
