@@ -19,6 +19,7 @@ import nsode
 from nsode.cli import run as command
 from nsode.diagnostics import ModelError
 from nsode.simulate import Trajectory
+from nsode.simulate.plot import left_out
 from support import listing
 from support.models import MODELS
 
@@ -270,3 +271,22 @@ def test_the_cache_is_shown_and_cleared(model, tmp_path, monkeypatch, capfd):
     assert "1 removed" in capfd.readouterr().out
     assert command(["cache"]) == 0
     assert "0 compiled models" in capfd.readouterr().out
+
+
+def test_a_figure_tells_how_much_it_leaves_out():
+    column = nsode.load(MODELS / "granular_column.di")
+    assert left_out(column.simulate(1e-3)) == ""
+    text = column.source.text
+    assert "constant n = 10" in text
+    larger = nsode.loads(text.replace("constant n = 10", "constant n = 15"))
+    assert left_out(larger.simulate(1e-3)) == ", without 3 of the elements"
+
+
+def test_the_command_stores_the_ledger_with_the_run(tmp_path):
+    file = tmp_path / "run.npz"
+    model = str(MODELS / "bouncing_mass.di")
+    assert command(["simulate", model, "--for", "0.5", "--ledger", "-o", str(file)]) == 0
+    saved = Trajectory.load(file)
+    assert {"f.stored", "f.dissipated", "f.given"} <= set(saved.y_names)
+    work = 9.8 * (1 - saved["p"].min())  # of the weight; the contact stores no more
+    assert 0.5 * work < saved["f.stored"].max() <= work
