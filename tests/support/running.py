@@ -19,6 +19,8 @@ from nsode.evaluate import apply, position
 from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum
 from nsode.ode import AugmentedODE, Binding, LinearSolve, Output, Placed, Rate, layout, size
 
+_FOUR_EPS = 4 * np.finfo(float).eps
+
 
 class Running(NamedTuple):
     """A value and its term scale."""
@@ -99,7 +101,9 @@ class Tracer:
             case Name(id, subscript):
                 return self.known[id, None if subscript is None else position(subscript, at)]
             case If(condition, then, otherwise):
-                return self.expr(then if self.expr(condition, at).value else otherwise, at)
+                test = self.expr(condition, at)
+                chosen = self.expr(then if test.value else otherwise, at)
+                return chosen if np.isfinite(test.scale) else Running(chosen.value, np.inf)
             case Sum(IndexRange(variable=variable, first=first, last=last), body):
                 terms = [self.expr(body, {**at, variable: k}) for k in range(first, last + 1)]
                 scale = len(terms) * sum(term.scale for term in terms)
@@ -124,6 +128,8 @@ def _at(item: object, k: int | None) -> dict[str, int]:
 def _call(function: str, args: list[Running]) -> Running:
     values = [a.value for a in args]
     value = _ieee(function, values)
+    if function == "atan2" and values[1] < 0 and abs(values[0]) <= _FOUR_EPS * args[0].scale:
+        return Running(value, np.inf)  # rounding, or the sign of a zero, decides between turns
     try:
         slopes = _slopes(function, values, value)
     except (OverflowError, ValueError, ZeroDivisionError):
@@ -139,7 +145,7 @@ def _mod(a: Running, b: Running) -> Running:
         return Running(value, np.inf)
     # Where rounding decides between two turns, the value may be 0 or b.
     blur = (a.scale + abs(quotient) * b.scale) / abs(b.value) + abs(quotient)
-    if abs(quotient - round(quotient)) <= 4 * np.finfo(float).eps * blur:
+    if abs(quotient - round(quotient)) <= _FOUR_EPS * blur:
         return Running(value, np.inf)
     return Running(value, abs(value) + a.scale + (abs(quotient) + 1) * b.scale)
 
