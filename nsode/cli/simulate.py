@@ -36,7 +36,7 @@ _PLOT = "-"  # what `--plot` without a file stands for
 @click.option("--step", type=float, metavar="SECONDS", help="The size of a step.")
 @click.option(
     "--method", metavar="NAME",
-    help="rk4, heun, euler; dopri5, cvodes or SciPy's, which choose their own steps.  "
+    help="rk4, heun, euler, verlet; dopri5, cvodes or SciPy's, which choose their own steps.  "
     "[default: the model's, or rk4]",
 )  # fmt: skip
 @click.option("--tol", "tolerance", type=float, help="Relative error of such a method's steps.")

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from nsode.diagnostics import Diagnostic
 from nsode.expr import Number
+from nsode.integrators.splittings import SPLITTINGS
 from nsode.ode import (
     AugmentedODE,
     Definition,
@@ -63,6 +64,9 @@ def outlook(
     """
     from nsode.analysis import foresee
 
+    if settings.method in SPLITTINGS:  # no limit is known, and books would see false gains
+        why = f"no stable step of {settings.method} is known"
+        return Outlook((_unchecked(why),) if inclusion.terms else (), False)
     found = foresee(_as_run(inclusion, ode, settings, p), MARGIN)
     remarks = [_of_signs(d) for d in found.diagnostics if d.code in TOLD]
     if inclusion.run.step != settings.step:  # it stands nowhere in the text
