@@ -261,7 +261,7 @@ def test_nothing_at_rest_is_zero_over_zero(compile_c):
         {"sat": call("sat", zero, zero), "shrink": call("shrink", zero, call("norm", zero, zero))},
         parameters=[Parameter("x", (0.0,))],
     )
-    np.testing.assert_array_equal(compile_c(scene).out(0.0, []), [0.0, 1.0])
+    np.testing.assert_array_equal(compile_c(scene).out(0.0, []), [0.0, 0.0])
 
 
 def test_mod_is_floored(compile_c):
