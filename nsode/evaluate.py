@@ -90,7 +90,25 @@ def _log(a: float) -> float:
     return -math.inf if a == 0 else math.log(a)
 
 
+def _power(a: float, b: float) -> float:
+    if a == 0 and b < 0:
+        return math.inf
+    try:
+        return math.pow(a, b)
+    except OverflowError:
+        return -math.inf if a < 0 and b % 2 == 1 else math.inf
+
+
+def _sinh(a: float) -> float:
+    try:
+        return math.sinh(a)
+    except OverflowError:
+        return math.copysign(math.inf, a)
+
+
 def _mod(a: float, b: float) -> float:
+    if b == 0:
+        return math.nan
     return a - b * math.floor(_divide(a, b))
 
 
@@ -109,7 +127,7 @@ _RULES: dict[str, Callable[..., float]] = {
     "neg": operator.neg,
     "*": operator.mul,
     "/": _divide,
-    "^": math.pow,
+    "^": _power,
     "<": operator.lt,
     "<=": operator.le,
     ">": operator.gt,
@@ -129,7 +147,7 @@ _RULES: dict[str, Callable[..., float]] = {
     "acos": math.acos,
     "atan": math.atan,
     "atan2": math.atan2,
-    "sinh": math.sinh,
+    "sinh": _sinh,
     "cosh": math.cosh,
     "tanh": math.tanh,
     "abs": abs,
