@@ -18,7 +18,6 @@ def behind(system: System) -> list[Definition]:
     return kept[::-1]
 
 
-
 def fixed(expr: Expr, range: IndexRange | None) -> Expr:
     """Return an expression with the index of a range of one element put in."""
     if range is None or len(range) != 1:
