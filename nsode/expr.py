@@ -167,7 +167,13 @@ def walk(expr: Expr) -> Iterator[Expr]:
 
 def names(expr: Expr) -> Iterator[Name]:
     """Yield each use of a name in ``expr``."""
-    return (node for node in walk(expr) if isinstance(node, Name))
+    stack = [expr]
+    while stack:
+        node = stack.pop()
+        if isinstance(node, Name):
+            yield node
+        else:
+            stack += children(node)[::-1]
 
 
 def rebuild(expr: Expr, change: Callable[[Expr], Expr]) -> Expr:

@@ -8,6 +8,7 @@ and a body has an index that no definition has.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import islice
 
 from nsode.expr import Call, Expr, If, Index, Name, Number, Sum, rebuild, walk
 
@@ -26,7 +27,7 @@ def with_parts(expr: Expr, named: Callable[[Expr], Name], varies: Callable[[Expr
             inner = rebuild(expr, lambda child: with_parts(child, named, varies))
             if function in _LINEAR or _is_scaled(function, args, varies):
                 return inner
-            return rebuild(inner, lambda child: child if _is_small(child) else named(child))
+            return rebuild(inner, lambda child: child if is_small(child, _SMALL) else named(child))
         case Number() | Index() | Name() | If() | Sum():
             return expr
         case _:
@@ -42,7 +43,8 @@ def _is_scaled(function: str, args: tuple[Expr, ...], varies: Callable[[Expr], b
     return False
 
 
-def _is_small(expr: Expr) -> bool:
+def is_small(expr: Expr, most: int) -> bool:
+    """Return whether an expression has so few nodes that a name would not shorten it."""
     if isinstance(expr, If | Sum):
         return False
-    return sum(1 for _ in walk(expr)) <= _SMALL
+    return sum(1 for _ in islice(walk(expr), most + 1)) <= most

@@ -14,7 +14,7 @@ from math import prod
 from typing import TYPE_CHECKING, NamedTuple
 
 from nsode.derivative.forward import Row
-from nsode.derivative.parts import with_parts
+from nsode.derivative.parts import is_small, with_parts
 from nsode.derivative.rules import (
     ONE,
     ZERO,
@@ -43,6 +43,9 @@ from nsode.ode import (
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+
+_SHORT = 4  # nodes of a derivative that is not worth a name
 
 
 class Entry(NamedTuple):
@@ -197,9 +200,11 @@ class _Chain:
                 yield _Dependence(Name(key.id, at), shifted(value, variable, name.at))
 
     def _named(self, name: str, key: Name, terms: list[Expr], span: IndexRange | None) -> Expr:
-        """Return a derivative under a name of its own, unless it is a plain number."""
+        """Return a derivative under a name of its own, unless it is short."""
         value = add(*terms)
-        if isinstance(value, Number) or (isinstance(value, Name) and value.at is None):
+        # In a family a quotient of parameters gets a name: inside a branch it could not leave
+        # the loop.
+        if is_small(value, _SHORT if span is None else 1) and not _is_element(value):
             return value
         label = derivative_name(name, key)
         self.emitted.append(Binding(label, value, span, role="part", span=value.span))
@@ -273,6 +278,10 @@ class _Chain:
             yield from self._spread_out(
                 Entry(entry.row, column, times(entry.value, value), (*entry.ranges, *over))
             )
+
+
+def _is_element(expr: Expr) -> bool:
+    return isinstance(expr, Name) and expr.at is not None
 
 
 def _own(name: str, span: IndexRange | None) -> Name:

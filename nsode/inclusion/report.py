@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
@@ -20,6 +19,27 @@ class PoisonedError(Exception):
         super().__init__(name)
 
 
+class Collecting:
+    """Hands what is refused inside to a report; a class, since every statement enters it."""
+
+    __slots__ = ("report",)
+
+    def __init__(self, report: Report) -> None:
+        self.report = report
+
+    def __enter__(self) -> None: ...
+
+    def __exit__(self, kind: object, error: object, trace: object) -> bool:
+        match error:
+            case ModelError():
+                self.report.found.extend(error.diagnostics)
+            case PoisonedError():
+                self.report.skipped.append(error)
+            case _:
+                return False
+        return True
+
+
 @dataclass(slots=True)
 class Report:
     """Diagnostics of one model, in the order found."""
@@ -33,15 +53,9 @@ class Report:
         """Keep one diagnostic."""
         self.found.append(diagnostic)
 
-    @contextmanager
-    def collecting(self) -> Iterator[None]:
+    def collecting(self) -> Collecting:
         """Keep what is refused inside, and go on behind it."""
-        try:
-            yield
-        except ModelError as error:
-            self.found.extend(error.diagnostics)
-        except PoisonedError as error:
-            self.skipped.append(error)
+        return Collecting(self)
 
     def ordered(self) -> list[Diagnostic]:
         """Return the diagnostics by place, each once."""

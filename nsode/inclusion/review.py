@@ -61,14 +61,16 @@ class Review:
         return found
 
     def _combine(self, expr: Expr, parts: list[_Seen]) -> _Seen:
+        if isinstance(expr, Number):
+            return _Seen(1, expr.value, expr.value)
+        if not parts:
+            return _Seen(1, None, 1.0)
         size = 1 + sum(part.size for part in parts)
         sums = max((part.sums for part in parts), default=0)
         terms = max((part.terms for part in parts), default=1)
         if isinstance(expr, Sum):
             sums, terms = sums + 1, terms * max(1, len(expr.range))
             self._check_sums(expr, sums, terms)
-        if isinstance(expr, Number):
-            return _Seen(1, expr.value, expr.value)
         if not isinstance(expr, Call):
             return _Seen(size, None, 1.0, sums, terms)
         constants = [part.constant for part in parts]

@@ -38,6 +38,8 @@ def _change(expr: Expr, fixed: Collection[str]) -> Expr:
     match expr:
         case If():
             return expr
+        case Name() | Number():
+            return expr
         case Call("/", (top, bottom)) if _is_divisor(bottom, fixed) and not _is_fixed(top, fixed):
             inverse = Call("/", (Number(1.0), bottom), span=bottom.span)
             return Call("*", (_change(top, fixed), inverse), span=expr.span)

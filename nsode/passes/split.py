@@ -26,7 +26,6 @@ from nsode.expr import (
     children,
     names,
     rebuild,
-    walk,
 )
 from nsode.ode import (
     AugmentedODE,
@@ -89,14 +88,14 @@ def settle(expr: Expr) -> Expr:
 
 def _is_settled(expr: Expr) -> bool:
     """Whether there is nothing to decide: most expressions, so they are not rebuilt."""
-    for node in walk(expr):
-        match node:
-            case Sum():
-                return False
-            case Call() if node.function in _COMPARISONS:
-                if not any(True for _ in names(node)):  # else it is no matter of indices
-                    return False
-    return True
+    if isinstance(expr, Sum):
+        return False
+    for child in children(expr):
+        if not _is_settled(child):
+            return False
+    # A comparison that reads a name is no matter of indices.
+    compares = isinstance(expr, Call) and expr.function in _COMPARISONS
+    return not compares or any(True for _ in names(expr))
 
 
 def split(ode: AugmentedODE) -> AugmentedODE:

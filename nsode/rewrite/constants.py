@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
-from nsode.evaluate import evaluate
+from nsode.evaluate import apply, evaluate
 from nsode.expr import Call, Expr, Name, Number, names
 from nsode.inclusion.elaborate import CONSTANTS
 from nsode.inclusion.order import loop, order
@@ -245,11 +245,7 @@ def _fails(value: float, relation: str, bound: float) -> bool:
     """Tell whether a relation is broken; what is not known breaks none."""
     if math.isnan(value) or math.isnan(bound):
         return False
-    return not evaluate(Call(relation, (Number(value), Number(bound))), _no_names)
-
-
-def _no_names(name: str, at: int | None) -> float:
-    raise AssertionError(name)
+    return not apply(relation, value, bound)
 
 
 _WORDS = {">": "must be greater than", ">=": "must be at least", "<=": "must be at most"}

@@ -70,7 +70,9 @@ def _ends(rate: Rate) -> Iterator[dict[str, int]]:
 
 def _terms(expr: Expr) -> int:
     """Return how often the innermost part of sums inside each other is computed."""
-    inner = max(map(_terms, children(expr)), default=1)
+    inner = 1
+    for child in children(expr):
+        inner = max(inner, _terms(child))
     return inner * len(expr.range) if isinstance(expr, Sum) else inner
 
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from itertools import chain, pairwise
+from typing import NamedTuple
 
 from nsode.expr import Expr, Index, IndexRange, Name, Sum, children
 from nsode.ode import Binding, LinearSolve, defined, expressions
@@ -75,6 +76,9 @@ class Plan:
 
 def plan(works: Iterable[Work], readings: Readings) -> Plan:
     """Arrange work, given in an order that computes."""
+    works = list(works)
+    if all(work.range is None for work in works):  # nothing to arrange, as in most scenes
+        return Plan((Group(None, works),), {}, set().union(*map(readings.names, works)))
     planner = _Planner(readings)
     for work in works:
         for part in planner.align(work):
@@ -105,44 +109,51 @@ def exprs(work: Work) -> tuple[Expr, ...]:
             return tuple(expressions(work))
 
 
-_Reads = set[tuple[str, bool]]
+class Reading(NamedTuple):
+    """What a piece of work reads: at exactly the element at hand, and apart from it."""
+
+    work: Work
+    here: set[str]
+    apart: set[str]
 
 
 @dataclass(slots=True)
 class Readings:
     """What each piece of work reads, found once for all the functions that do it."""
 
-    known: dict[int, tuple[Work, _Reads]] = field(default_factory=dict)
+    known: dict[int, Reading] = field(default_factory=dict)
 
-    def of(self, work: Work) -> _Reads:
-        """Return each name, and whether it is read at exactly the element at hand."""
-        if id(work) not in self.known:
-            self.known[id(work)] = work, _reads(work)
-        return self.known[id(work)][1]
+    def of(self, work: Work) -> Reading:
+        """Return what a piece of work reads; it is held on to for its id."""
+        found = self.known.get(id(work))
+        if found is None:
+            found = self.known[id(work)] = _reading(work)
+        return found
 
     def names(self, work: Work) -> set[str]:
-        """Return each name that is read."""
-        return {name for name, _ in self.of(work)}
+        """Return every name that a piece of work reads."""
+        _, here, apart = self.of(work)
+        return here | apart if here else apart
 
 
-def _reads(work: Work) -> _Reads:
+def _reading(work: Work) -> Reading:
     if work.range is None:
-        return {(name, False) for name in reads(*exprs(work))}
-    found: _Reads = set()
+        return Reading(work, set(), reads(*exprs(work)))
+    found = Reading(work, set(), set())
     for expr in exprs(work):
         _gather(expr, Index(work.range.variable), found)
     return found
 
 
-def _gather(expr: Expr, here: Index | None, found: _Reads) -> None:
+def _gather(expr: Expr, index: Index | None, found: Reading) -> None:
     match expr:
         case Name(id, at):
-            found.add((id, at is not None and at == here))
+            (found.apart if at is None or at != index else found.here).add(id)
         case Sum(over, body):
-            _gather(body, None if here == Index(over.variable) else here, found)
+            _gather(body, None if index == Index(over.variable) else index, found)
         case _:
             for child in children(expr):
-                _gather(child, here, found)
+                _gather(child, index, found)
 
 
 @dataclass(slots=True)
@@ -161,11 +172,12 @@ class _Planner:
             yield work
             return
         starts = {over.first}
-        for name, here in self.readings.of(work):
+        _, here, apart = self.readings.of(work)
+        if any(self._is_family(name) for name in apart):
+            yield work
+            return
+        for name in here:
             keys = [key for key in self.homes.get(name, ()) if key is not None]
-            if keys and not here:
-                yield work
-                return
             starts.update(first for first, _ in keys if over.first < first <= over.last)
             starts.update(last + 1 for _, last in keys if over.first <= last < over.last)
         for first, after in pairwise([*sorted(starts), over.last + 1]):
@@ -173,32 +185,24 @@ class _Planner:
 
     def place(self, work: Work) -> None:
         key = _key(work.range)
-        shared: list[tuple[str, int]] = []
-        low = 0
-        for name, here in self.readings.of(work):
-            self.read.add(name)
-            homes = self.homes.get(name)
-            if homes is None:
-                continue
-            at = homes.get(key) if here else None
-            if at is not None:
-                shared.append((name, at))
-                low = max(low, at)
-            else:
-                apart = (g + (home is not None or key is not None) for home, g in homes.items())
-                low = max(low, *apart)
-                self._store(name)
+        _, here, apart = self.readings.of(work)
+        self.read |= here
+        self.read |= apart
+        shared = {name: self.homes[name][key] for name in here if key in self.homes.get(name, ())}
+        low = max(shared.values(), default=0)
+        for name in chain(apart, here - shared.keys()):
+            for home, group in self.homes.get(name, {}).items():
+                low = max(low, group + (home is not None or key is not None))
+                if home is not None:
+                    self.stored.add(name)
         position = self._position(key, low, work.range)
-        for name, at in shared:
-            if at != position:
-                self._store(name)
+        self.stored.update(name for name, at in shared.items() if at != position)
         self.groups[position].works.append(work)
         for name in _defined(work):
             self.homes.setdefault(name, {})[key] = position
 
-    def _store(self, name: str) -> None:
-        if None not in self.homes[name]:
-            self.stored.add(name)
+    def _is_family(self, name: str) -> bool:
+        return any(key is not None for key in self.homes.get(name, ()))
 
     def _position(self, key: _Key, low: int, range: IndexRange | None) -> int:
         known = self.positions.setdefault(key, [])

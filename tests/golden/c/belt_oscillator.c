@@ -124,12 +124,10 @@ int belt_oscillator_jac(real t, const real *x, const real *u, const real *p, rea
     const real b_Fc_s_d_Fc_a = fabs(b_Fc_z) < b_Fc_Z ? (real)1 : 0;
     const real b_Fc_s_d_w = (fabs(b_Fc_z) < b_Fc_Z ? p_Fc_beta : 0) + (b_Fc_z >= b_Fc_Z && b_Fc_z >
         0 ? b_Fc_Z_d_w : 0) + (-b_Fc_z >= b_Fc_Z && b_Fc_z < 0 ? -b_Fc_Z_d_w : 0);
-    const real b_Fc_d_Fc_a = p_Fc_K*b_Fc_s_d_Fc_a;
-    const real b_Fc_d_w = p_Fc_K*b_Fc_s_d_w;
     J[1] = -1;
     J[0] = 1/p_M*p_k2*(3*(x_p*x_p)) + (-1/p_M*p_k1);
-    J[4] = -1/p_M*b_Fc_d_Fc_a;
-    J[2] = -1/p_M*b_Fc_d_w;
+    J[4] = -1/p_M*(p_Fc_K*b_Fc_s_d_Fc_a);
+    J[2] = -1/p_M*(p_Fc_K*b_Fc_s_d_w);
     J[5] = 1/p_Fc_beta*b_Fc_s_d_Fc_a - 1/p_Fc_beta;
     J[3] = 1/p_Fc_beta*b_Fc_s_d_w;
     return belt_oscillator_OK;

@@ -111,16 +111,13 @@ int bouncing_mass_jac(real t, const real *x, const real *u, const real *p, real 
     const real b_f_d_f_e = 0 < b_f_part1 ? p_f_K*b_f_part1_d_f_e : 0;
     const real b_f_d_p = 0 < b_f_part1 ? p_f_K*b_f_part1_d_p : 0;
     const real b_f_e_rate_part2 = -x_f_e*(1/p_f_beta);
-    const real b_f_e_rate_part2_d_f_e = -1/p_f_beta;
     const real b_f_e_rate_part3 = -(b_f_psi + x_f_e)*(1/p_f_alpha);
-    const real b_f_e_rate_part3_d_p = -1/p_f_alpha;
-    const real b_f_e_rate_part3_d_f_e = -1/p_f_alpha;
     J[2] = 1;
     J[3] = 1/p_M*b_f_d_f_e;
     J[0] = 1/p_M*b_f_d_p;
-    J[4] = (b_f_e_rate_part2 >= b_f_e_rate_part3 ? b_f_e_rate_part2_d_f_e : 0) + (b_f_e_rate_part2 <
-        b_f_e_rate_part3 ? b_f_e_rate_part3_d_f_e : 0);
-    J[1] = b_f_e_rate_part2 < b_f_e_rate_part3 ? b_f_e_rate_part3_d_p : 0;
+    J[4] = (b_f_e_rate_part2 >= b_f_e_rate_part3 ? -1/p_f_beta : 0) + (b_f_e_rate_part2 <
+        b_f_e_rate_part3 ? -1/p_f_alpha : 0);
+    J[1] = b_f_e_rate_part2 < b_f_e_rate_part3 ? -1/p_f_alpha : 0;
     return bouncing_mass_OK;
 }
 

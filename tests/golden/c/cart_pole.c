@@ -195,16 +195,12 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     const real b_w_rate = vector2[1];
     const real b_F_s_d_F_a = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
     const real b_F_s_d_v = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
-    const real b_F_d_F_a = p_F_K*b_F_s_d_F_a;
-    const real b_F_d_v = p_F_K*b_F_s_d_v;
     const real b_T_s_d_T_a = fabs(b_T_z) < b_T_Z ? (real)1 : 0;
     const real b_T_s_d_w = fabs(b_T_z) < b_T_Z ? p_T_beta : 0;
-    const real b_T_d_T_a = p_T_K*b_T_s_d_T_a;
-    const real b_T_d_w = p_T_K*b_T_s_d_w;
     const real b_v_rate_part1 = p_mp*p_l*(x_w*x_w);
     const real b_v_rate_part1_d_w = p_mp*p_l*(2*x_w);
     real matrix3[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
-    real vector4[] = {sin(x_phi)*b_v_rate_part1_d_w, -b_T_d_w};
+    real vector4[] = {sin(x_phi)*b_v_rate_part1_d_w, -p_T_K*b_T_s_d_w};
     if (!solve2(matrix3, vector4)) {
         return cart_pole_SINGULAR;
     }
@@ -219,21 +215,21 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     const real b_v_rate_d_phi = vector6[0];
     const real b_w_rate_d_phi = vector6[1];
     real matrix7[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
-    real vector8[] = {-b_F_d_F_a, 0};
+    real vector8[] = {-p_F_K*b_F_s_d_F_a, 0};
     if (!solve2(matrix7, vector8)) {
         return cart_pole_SINGULAR;
     }
     const real b_v_rate_d_F_a = vector8[0];
     const real b_w_rate_d_F_a = vector8[1];
     real matrix9[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
-    real vector10[] = {-b_F_d_v, 0};
+    real vector10[] = {-p_F_K*b_F_s_d_v, 0};
     if (!solve2(matrix9, vector10)) {
         return cart_pole_SINGULAR;
     }
     const real b_v_rate_d_v = vector10[0];
     const real b_w_rate_d_v = vector10[1];
     real matrix11[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
-    real vector12[] = {0, -b_T_d_T_a};
+    real vector12[] = {0, -p_T_K*b_T_s_d_T_a};
     if (!solve2(matrix11, vector12)) {
         return cart_pole_SINGULAR;
     }

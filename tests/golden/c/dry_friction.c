@@ -116,11 +116,9 @@ int dry_friction_jac(real t, const real *x, const real *u, const real *p, real *
     const real b_F_Z = p_F0/p_F_K;
     const real b_F_s_d_F_a = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
     const real b_F_s_d_v = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
-    const real b_F_d_F_a = p_F_K*b_F_s_d_F_a;
-    const real b_F_d_v = p_F_K*b_F_s_d_v;
     J[0] = 1;
-    J[3] = -1/p_M*b_F_d_F_a;
-    J[1] = -1/p_M*b_F_d_v;
+    J[3] = -1/p_M*(p_F_K*b_F_s_d_F_a);
+    J[1] = -1/p_M*(p_F_K*b_F_s_d_v);
     J[4] = 1/p_F_beta*b_F_s_d_F_a - 1/p_F_beta;
     J[2] = 1/p_F_beta*b_F_s_d_v;
     return dry_friction_OK;

@@ -288,11 +288,6 @@ int gripper_jac(real t, const real *x, const real *u, const real *p, real *J)
         b_FL_Z && b_FL_z < 0 ? -b_FL_Z_d_p_x : 0);
     const real b_FL_s_d_a = (b_FL_z >= b_FL_Z && b_FL_z > 0 ? b_FL_Z_d_a : 0) + (-b_FL_z >= b_FL_Z
         && b_FL_z < 0 ? -b_FL_Z_d_a : 0);
-    const real b_FL_d_FL_a = p_FL_K*b_FL_s_d_FL_a;
-    const real b_FL_d_v_y = p_FL_K*b_FL_s_d_v_y;
-    const real b_FL_d_L_e = p_FL_K*b_FL_s_d_L_e;
-    const real b_FL_d_p_x = p_FL_K*b_FL_s_d_p_x;
-    const real b_FL_d_a = p_FL_K*b_FL_s_d_a;
     const real b_FR_Z_d_R_e = 1/p_FR_K*p_mu*b_R_d_R_e;
     const real b_FR_Z_d_b = 1/p_FR_K*p_mu*b_R_d_b;
     const real b_FR_Z_d_p_x = 1/p_FR_K*p_mu*b_R_d_p_x;
@@ -304,23 +299,10 @@ int gripper_jac(real t, const real *x, const real *u, const real *p, real *J)
         && b_FR_z < 0 ? -b_FR_Z_d_b : 0);
     const real b_FR_s_d_p_x = (b_FR_z >= b_FR_Z && b_FR_z > 0 ? b_FR_Z_d_p_x : 0) + (-b_FR_z >=
         b_FR_Z && b_FR_z < 0 ? -b_FR_Z_d_p_x : 0);
-    const real b_FR_d_FR_a = p_FR_K*b_FR_s_d_FR_a;
-    const real b_FR_d_v_y = p_FR_K*b_FR_s_d_v_y;
-    const real b_FR_d_R_e = p_FR_K*b_FR_s_d_R_e;
-    const real b_FR_d_b = p_FR_K*b_FR_s_d_b;
-    const real b_FR_d_p_x = p_FR_K*b_FR_s_d_p_x;
     const real b_L_e_rate_part3 = -x_L_e*(1/p_L_beta);
-    const real b_L_e_rate_part3_d_L_e = -1/p_L_beta;
     const real b_L_e_rate_part4 = -(b_L_psi + x_L_e)*(1/p_L_alpha);
-    const real b_L_e_rate_part4_d_p_x = -1/p_L_alpha;
-    const real b_L_e_rate_part4_d_a = 1/p_L_alpha;
-    const real b_L_e_rate_part4_d_L_e = -1/p_L_alpha;
     const real b_R_e_rate_part5 = -x_R_e*(1/p_R_beta);
-    const real b_R_e_rate_part5_d_R_e = -1/p_R_beta;
     const real b_R_e_rate_part6 = -(b_R_psi + x_R_e)*(1/p_R_alpha);
-    const real b_R_e_rate_part6_d_b = -1/p_R_alpha;
-    const real b_R_e_rate_part6_d_p_x = 1/p_R_alpha;
-    const real b_R_e_rate_part6_d_R_e = -1/p_R_alpha;
     J[8] = 1;
     J[9] = 1;
     J[27] = 1/p_M*b_L_d_L_e;
@@ -328,14 +310,14 @@ int gripper_jac(real t, const real *x, const real *u, const real *p, real *J)
     J[13] = 1/p_M*b_L_d_a;
     J[32] = -1/p_M*b_R_d_R_e;
     J[18] = -1/p_M*b_R_d_b;
-    J[37] = -1/p_M*b_FL_d_FL_a;
-    J[10] = -1/p_M*b_FL_d_v_y + (-1/p_M*b_FR_d_v_y);
-    J[28] = -1/p_M*b_FL_d_L_e;
-    J[1] = -1/p_M*b_FL_d_p_x + (-1/p_M*b_FR_d_p_x);
-    J[14] = -1/p_M*b_FL_d_a;
-    J[39] = -1/p_M*b_FR_d_FR_a;
-    J[33] = -1/p_M*b_FR_d_R_e;
-    J[19] = -1/p_M*b_FR_d_b;
+    J[37] = -1/p_M*(p_FL_K*b_FL_s_d_FL_a);
+    J[10] = -1/p_M*(p_FL_K*b_FL_s_d_v_y) + (-1/p_M*(p_FR_K*b_FR_s_d_v_y));
+    J[28] = -1/p_M*(p_FL_K*b_FL_s_d_L_e);
+    J[1] = -1/p_M*(p_FL_K*b_FL_s_d_p_x) + (-1/p_M*(p_FR_K*b_FR_s_d_p_x));
+    J[14] = -1/p_M*(p_FL_K*b_FL_s_d_a);
+    J[39] = -1/p_M*(p_FR_K*b_FR_s_d_FR_a);
+    J[33] = -1/p_M*(p_FR_K*b_FR_s_d_R_e);
+    J[19] = -1/p_M*(p_FR_K*b_FR_s_d_b);
     J[23] = 1;
     J[25] = 1;
     J[29] = -1/p_m*b_L_d_L_e;
@@ -346,14 +328,14 @@ int gripper_jac(real t, const real *x, const real *u, const real *p, real *J)
     J[20] = 1/p_m*b_R_d_b;
     J[3] = 1/p_m*b_R_d_p_x;
     J[26] = -1/p_m*p_c;
-    J[30] = (b_L_e_rate_part3 >= b_L_e_rate_part4 ? b_L_e_rate_part3_d_L_e : 0) + (b_L_e_rate_part3
-        < b_L_e_rate_part4 ? b_L_e_rate_part4_d_L_e : 0);
-    J[4] = b_L_e_rate_part3 < b_L_e_rate_part4 ? b_L_e_rate_part4_d_p_x : 0;
-    J[16] = b_L_e_rate_part3 < b_L_e_rate_part4 ? b_L_e_rate_part4_d_a : 0;
-    J[35] = (b_R_e_rate_part5 >= b_R_e_rate_part6 ? b_R_e_rate_part5_d_R_e : 0) + (b_R_e_rate_part5
-        < b_R_e_rate_part6 ? b_R_e_rate_part6_d_R_e : 0);
-    J[21] = b_R_e_rate_part5 < b_R_e_rate_part6 ? b_R_e_rate_part6_d_b : 0;
-    J[5] = b_R_e_rate_part5 < b_R_e_rate_part6 ? b_R_e_rate_part6_d_p_x : 0;
+    J[30] = (b_L_e_rate_part3 >= b_L_e_rate_part4 ? -1/p_L_beta : 0) + (b_L_e_rate_part3 <
+        b_L_e_rate_part4 ? -1/p_L_alpha : 0);
+    J[4] = b_L_e_rate_part3 < b_L_e_rate_part4 ? -1/p_L_alpha : 0;
+    J[16] = b_L_e_rate_part3 < b_L_e_rate_part4 ? 1/p_L_alpha : 0;
+    J[35] = (b_R_e_rate_part5 >= b_R_e_rate_part6 ? -1/p_R_beta : 0) + (b_R_e_rate_part5 <
+        b_R_e_rate_part6 ? -1/p_R_alpha : 0);
+    J[21] = b_R_e_rate_part5 < b_R_e_rate_part6 ? -1/p_R_alpha : 0;
+    J[5] = b_R_e_rate_part5 < b_R_e_rate_part6 ? 1/p_R_alpha : 0;
     J[38] = 1/p_FL_beta*b_FL_s_d_FL_a - 1/p_FL_beta;
     J[11] = 1/p_FL_beta*b_FL_s_d_v_y;
     J[31] = 1/p_FL_beta*b_FL_s_d_L_e;

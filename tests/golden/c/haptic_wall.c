@@ -183,32 +183,21 @@ int haptic_wall_jac(real t, const real *x, const real *u, const real *p, real *J
         b_F_z < 0 ? -b_F_Z_d_N_e : 0);
     const real b_F_s_d_p_x = (b_F_z >= b_F_Z && b_F_z > 0 ? b_F_Z_d_p_x : 0) + (-b_F_z >= b_F_Z &&
         b_F_z < 0 ? -b_F_Z_d_p_x : 0);
-    const real b_F_d_F_a = p_F_K*b_F_s_d_F_a;
-    const real b_F_d_v_y = p_F_K*b_F_s_d_v_y;
-    const real b_F_d_N_e = p_F_K*b_F_s_d_N_e;
-    const real b_F_d_p_x = p_F_K*b_F_s_d_p_x;
-    const real b_arm_x_d_p_x = -p_k;
-    const real b_arm_x_d_v_x = -p_c;
-    const real b_arm_y_d_p_y = -p_k;
-    const real b_arm_y_d_v_y = -p_c;
     const real b_N_e_rate_part2 = -x_N_e*(1/p_N_beta);
-    const real b_N_e_rate_part2_d_N_e = -1/p_N_beta;
     const real b_N_e_rate_part3 = -(b_N_psi + x_N_e)*(1/p_N_alpha);
-    const real b_N_e_rate_part3_d_p_x = -1/p_N_alpha;
-    const real b_N_e_rate_part3_d_N_e = -1/p_N_alpha;
     J[5] = 1;
     J[7] = 1;
-    J[0] = 1/p_m*b_arm_x_d_p_x + 1/p_m*b_N_d_p_x;
-    J[6] = 1/p_m*b_arm_x_d_v_x + (-1/p_m*p_b);
+    J[0] = 1/p_m*(-p_k) + 1/p_m*b_N_d_p_x;
+    J[6] = 1/p_m*(-p_c) + (-1/p_m*p_b);
     J[10] = 1/p_m*b_N_d_N_e;
-    J[4] = 1/p_m*b_arm_y_d_p_y;
-    J[8] = 1/p_m*b_arm_y_d_v_y + (-1/p_m*p_b) + (-1/p_m*b_F_d_v_y);
-    J[14] = -1/p_m*b_F_d_F_a;
-    J[11] = -1/p_m*b_F_d_N_e;
-    J[1] = -1/p_m*b_F_d_p_x;
-    J[12] = (b_N_e_rate_part2 >= b_N_e_rate_part3 ? b_N_e_rate_part2_d_N_e : 0) + (b_N_e_rate_part2
-        < b_N_e_rate_part3 ? b_N_e_rate_part3_d_N_e : 0);
-    J[2] = b_N_e_rate_part2 < b_N_e_rate_part3 ? b_N_e_rate_part3_d_p_x : 0;
+    J[4] = 1/p_m*(-p_k);
+    J[8] = 1/p_m*(-p_c) + (-1/p_m*p_b) + (-1/p_m*(p_F_K*b_F_s_d_v_y));
+    J[14] = -1/p_m*(p_F_K*b_F_s_d_F_a);
+    J[11] = -1/p_m*(p_F_K*b_F_s_d_N_e);
+    J[1] = -1/p_m*(p_F_K*b_F_s_d_p_x);
+    J[12] = (b_N_e_rate_part2 >= b_N_e_rate_part3 ? -1/p_N_beta : 0) + (b_N_e_rate_part2 <
+        b_N_e_rate_part3 ? -1/p_N_alpha : 0);
+    J[2] = b_N_e_rate_part2 < b_N_e_rate_part3 ? -1/p_N_alpha : 0;
     J[15] = 1/p_F_beta*b_F_s_d_F_a - 1/p_F_beta;
     J[9] = 1/p_F_beta*b_F_s_d_v_y;
     J[13] = 1/p_F_beta*b_F_s_d_N_e;

@@ -159,8 +159,6 @@ int hopping_leg_jac(real t, const real *x, const real *u, const real *p, real *J
     const real p_S_beta = p[hopping_leg_P_S_beta];
     const real b_N_psi = x_yf;
     const real b_S_psi = p_s - (x_y - x_yf);
-    const real b_leg_d_y = -p_k;
-    const real b_leg_d_v = -p_c;
     const real b_N_part1 = x_N_e - p_N_beta*(b_N_psi + x_N_e)*(1/p_N_alpha);
     const real b_N_part1_d_N_e = 1 + (-1/p_N_alpha*p_N_beta);
     const real b_N_part1_d_yf = -1/p_N_alpha*p_N_beta;
@@ -174,36 +172,29 @@ int hopping_leg_jac(real t, const real *x, const real *u, const real *p, real *J
     const real b_S_d_y = 0 < b_S_part2 ? p_S_K*b_S_part2_d_y : 0;
     const real b_S_d_yf = 0 < b_S_part2 ? p_S_K*b_S_part2_d_yf : 0;
     const real b_N_e_rate_part3 = -x_N_e*(1/p_N_beta);
-    const real b_N_e_rate_part3_d_N_e = -1/p_N_beta;
     const real b_N_e_rate_part4 = -(b_N_psi + x_N_e)*(1/p_N_alpha);
-    const real b_N_e_rate_part4_d_yf = -1/p_N_alpha;
-    const real b_N_e_rate_part4_d_N_e = -1/p_N_alpha;
     const real b_S_e_rate_part5 = -x_S_e*(1/p_S_beta);
-    const real b_S_e_rate_part5_d_S_e = -1/p_S_beta;
     const real b_S_e_rate_part6 = -(b_S_psi + x_S_e)*(1/p_S_alpha);
-    const real b_S_e_rate_part6_d_y = 1/p_S_alpha;
-    const real b_S_e_rate_part6_d_yf = -1/p_S_alpha;
-    const real b_S_e_rate_part6_d_S_e = -1/p_S_alpha;
     J[7] = 1;
     J[10] = 1;
-    J[0] = 1/p_M*b_leg_d_y + (-1/p_M*b_S_d_y);
+    J[0] = 1/p_M*(-p_k) + (-1/p_M*b_S_d_y);
     J[3] = 1/p_M*p_k + (-1/p_M*b_S_d_yf);
-    J[8] = 1/p_M*b_leg_d_v;
+    J[8] = 1/p_M*(-p_c);
     J[11] = 1/p_M*p_c;
     J[15] = -1/p_M*b_S_d_S_e;
     J[13] = 1/p_m*b_N_d_N_e;
     J[4] = 1/p_m*b_N_d_yf + 1/p_m*b_S_d_yf + (-1/p_m*p_k);
     J[16] = 1/p_m*b_S_d_S_e;
-    J[1] = 1/p_m*b_S_d_y + (-1/p_m*b_leg_d_y);
-    J[9] = -1/p_m*b_leg_d_v;
+    J[1] = 1/p_m*b_S_d_y + (-1/p_m*(-p_k));
+    J[9] = -1/p_m*(-p_c);
     J[12] = -1/p_m*p_c;
-    J[14] = (b_N_e_rate_part3 >= b_N_e_rate_part4 ? b_N_e_rate_part3_d_N_e : 0) + (b_N_e_rate_part3
-        < b_N_e_rate_part4 ? b_N_e_rate_part4_d_N_e : 0);
-    J[5] = b_N_e_rate_part3 < b_N_e_rate_part4 ? b_N_e_rate_part4_d_yf : 0;
-    J[17] = (b_S_e_rate_part5 >= b_S_e_rate_part6 ? b_S_e_rate_part5_d_S_e : 0) + (b_S_e_rate_part5
-        < b_S_e_rate_part6 ? b_S_e_rate_part6_d_S_e : 0);
-    J[2] = b_S_e_rate_part5 < b_S_e_rate_part6 ? b_S_e_rate_part6_d_y : 0;
-    J[6] = b_S_e_rate_part5 < b_S_e_rate_part6 ? b_S_e_rate_part6_d_yf : 0;
+    J[14] = (b_N_e_rate_part3 >= b_N_e_rate_part4 ? -1/p_N_beta : 0) + (b_N_e_rate_part3 <
+        b_N_e_rate_part4 ? -1/p_N_alpha : 0);
+    J[5] = b_N_e_rate_part3 < b_N_e_rate_part4 ? -1/p_N_alpha : 0;
+    J[17] = (b_S_e_rate_part5 >= b_S_e_rate_part6 ? -1/p_S_beta : 0) + (b_S_e_rate_part5 <
+        b_S_e_rate_part6 ? -1/p_S_alpha : 0);
+    J[2] = b_S_e_rate_part5 < b_S_e_rate_part6 ? 1/p_S_alpha : 0;
+    J[6] = b_S_e_rate_part5 < b_S_e_rate_part6 ? -1/p_S_alpha : 0;
     return hopping_leg_OK;
 }
 

@@ -370,29 +370,18 @@ int two_blocks_conveyor_jac(real t, const real *x, const real *u, const real *p,
         b_F1_Z && b_F1_z < 0 ? -b_F1_Z_d_N1_e : 0);
     const real b_F1_s_d_p1_x = (b_F1_z >= b_F1_Z && b_F1_z > 0 ? b_F1_Z_d_p1_x : 0) + (-b_F1_z >=
         b_F1_Z && b_F1_z < 0 ? -b_F1_Z_d_p1_x : 0);
-    const real b_F1_d_F1_a = p_F1_K*b_F1_s_d_F1_a;
-    const real b_F1_d_v1_y = p_F1_K*b_F1_s_d_v1_y;
-    const real b_F1_d_N1_e = p_F1_K*b_F1_s_d_N1_e;
-    const real b_F1_d_p1_x = p_F1_K*b_F1_s_d_p1_x;
-    const real b_F2_z_d_v2_y = -p_F2_beta;
     const real b_F2_Z_d_N2_e = 1/p_F2_K*p_mu2*b_N2_d_N2_e;
     const real b_F2_Z_d_p2_x = 1/p_F2_K*p_mu2*b_N2_d_p2_x;
     const real b_F2_Z_d_p1_x = 1/p_F2_K*p_mu2*b_N2_d_p1_x;
     const real b_F2_s_d_F2_a = fabs(b_F2_z) < b_F2_Z ? (real)1 : 0;
     const real b_F2_s_d_v1_y = fabs(b_F2_z) < b_F2_Z ? p_F2_beta : 0;
-    const real b_F2_s_d_v2_y = fabs(b_F2_z) < b_F2_Z ? b_F2_z_d_v2_y : 0;
+    const real b_F2_s_d_v2_y = fabs(b_F2_z) < b_F2_Z ? -p_F2_beta : 0;
     const real b_F2_s_d_N2_e = (b_F2_z >= b_F2_Z && b_F2_z > 0 ? b_F2_Z_d_N2_e : 0) + (-b_F2_z >=
         b_F2_Z && b_F2_z < 0 ? -b_F2_Z_d_N2_e : 0);
     const real b_F2_s_d_p2_x = (b_F2_z >= b_F2_Z && b_F2_z > 0 ? b_F2_Z_d_p2_x : 0) + (-b_F2_z >=
         b_F2_Z && b_F2_z < 0 ? -b_F2_Z_d_p2_x : 0);
     const real b_F2_s_d_p1_x = (b_F2_z >= b_F2_Z && b_F2_z > 0 ? b_F2_Z_d_p1_x : 0) + (-b_F2_z >=
         b_F2_Z && b_F2_z < 0 ? -b_F2_Z_d_p1_x : 0);
-    const real b_F2_d_F2_a = p_F2_K*b_F2_s_d_F2_a;
-    const real b_F2_d_v1_y = p_F2_K*b_F2_s_d_v1_y;
-    const real b_F2_d_v2_y = p_F2_K*b_F2_s_d_v2_y;
-    const real b_F2_d_N2_e = p_F2_K*b_F2_s_d_N2_e;
-    const real b_F2_d_p2_x = p_F2_K*b_F2_s_d_p2_x;
-    const real b_F2_d_p1_x = p_F2_K*b_F2_s_d_p1_x;
     const real b_F3_Z_d_N3_e = 1/p_F3_K*p_mu3*b_N3_d_N3_e;
     const real b_F3_Z_d_p2_y = 1/p_F3_K*p_mu3*b_N3_d_p2_y;
     const real b_F3_s_d_F3_a = fabs(b_F3_z) < b_F3_Z ? (real)1 : 0;
@@ -401,26 +390,12 @@ int two_blocks_conveyor_jac(real t, const real *x, const real *u, const real *p,
         b_F3_Z && b_F3_z < 0 ? -b_F3_Z_d_N3_e : 0);
     const real b_F3_s_d_p2_y = (b_F3_z >= b_F3_Z && b_F3_z > 0 ? b_F3_Z_d_p2_y : 0) + (-b_F3_z >=
         b_F3_Z && b_F3_z < 0 ? -b_F3_Z_d_p2_y : 0);
-    const real b_F3_d_F3_a = p_F3_K*b_F3_s_d_F3_a;
-    const real b_F3_d_v2_x = p_F3_K*b_F3_s_d_v2_x;
-    const real b_F3_d_N3_e = p_F3_K*b_F3_s_d_N3_e;
-    const real b_F3_d_p2_y = p_F3_K*b_F3_s_d_p2_y;
     const real b_N1_e_rate_part4 = -x_N1_e*(1/p_N1_beta);
-    const real b_N1_e_rate_part4_d_N1_e = -1/p_N1_beta;
     const real b_N1_e_rate_part5 = -(b_N1_psi + x_N1_e)*(1/p_N1_alpha);
-    const real b_N1_e_rate_part5_d_p1_x = -1/p_N1_alpha;
-    const real b_N1_e_rate_part5_d_N1_e = -1/p_N1_alpha;
     const real b_N2_e_rate_part6 = -x_N2_e*(1/p_N2_beta);
-    const real b_N2_e_rate_part6_d_N2_e = -1/p_N2_beta;
     const real b_N2_e_rate_part7 = -(b_N2_psi + x_N2_e)*(1/p_N2_alpha);
-    const real b_N2_e_rate_part7_d_p2_x = -1/p_N2_alpha;
-    const real b_N2_e_rate_part7_d_p1_x = 1/p_N2_alpha;
-    const real b_N2_e_rate_part7_d_N2_e = -1/p_N2_alpha;
     const real b_N3_e_rate_part8 = -x_N3_e*(1/p_N3_beta);
-    const real b_N3_e_rate_part8_d_N3_e = -1/p_N3_beta;
     const real b_N3_e_rate_part9 = -(b_N3_psi + x_N3_e)*(1/p_N3_alpha);
-    const real b_N3_e_rate_part9_d_p2_y = -1/p_N3_alpha;
-    const real b_N3_e_rate_part9_d_N3_e = -1/p_N3_alpha;
     J[19] = 1;
     J[20] = 1;
     J[25] = 1;
@@ -429,40 +404,40 @@ int two_blocks_conveyor_jac(real t, const real *x, const real *u, const real *p,
     J[0] = 1/p_M1*b_N1_d_p1_x + (-1/p_M1*b_N2_d_p1_x);
     J[36] = -1/p_M1*b_N2_d_N2_e;
     J[9] = -1/p_M1*b_N2_d_p2_x;
-    J[46] = -1/p_M1*b_F1_d_F1_a;
-    J[21] = -1/p_M1*b_F1_d_v1_y + (-1/p_M1*b_F2_d_v1_y);
-    J[33] = -1/p_M1*b_F1_d_N1_e;
-    J[1] = -1/p_M1*b_F1_d_p1_x + (-1/p_M1*b_F2_d_p1_x);
-    J[48] = -1/p_M1*b_F2_d_F2_a;
-    J[29] = -1/p_M1*b_F2_d_v2_y;
-    J[37] = -1/p_M1*b_F2_d_N2_e;
-    J[10] = -1/p_M1*b_F2_d_p2_x;
+    J[46] = -1/p_M1*(p_F1_K*b_F1_s_d_F1_a);
+    J[21] = -1/p_M1*(p_F1_K*b_F1_s_d_v1_y) + (-1/p_M1*(p_F2_K*b_F2_s_d_v1_y));
+    J[33] = -1/p_M1*(p_F1_K*b_F1_s_d_N1_e);
+    J[1] = -1/p_M1*(p_F1_K*b_F1_s_d_p1_x) + (-1/p_M1*(p_F2_K*b_F2_s_d_p1_x));
+    J[48] = -1/p_M1*(p_F2_K*b_F2_s_d_F2_a);
+    J[29] = -1/p_M1*(p_F2_K*b_F2_s_d_v2_y);
+    J[37] = -1/p_M1*(p_F2_K*b_F2_s_d_N2_e);
+    J[10] = -1/p_M1*(p_F2_K*b_F2_s_d_p2_x);
     J[8] = -1/p_M1*p_Ks;
     J[38] = 1/p_M2*b_N2_d_N2_e;
     J[11] = 1/p_M2*b_N2_d_p2_x;
     J[2] = 1/p_M2*b_N2_d_p1_x;
-    J[51] = -1/p_M2*b_F3_d_F3_a;
-    J[26] = -1/p_M2*b_F3_d_v2_x;
-    J[42] = -1/p_M2*b_F3_d_N3_e;
-    J[15] = -1/p_M2*b_F3_d_p2_y;
-    J[49] = 1/p_M2*b_F2_d_F2_a;
-    J[22] = 1/p_M2*b_F2_d_v1_y;
-    J[30] = 1/p_M2*b_F2_d_v2_y;
-    J[39] = 1/p_M2*b_F2_d_N2_e;
-    J[12] = 1/p_M2*b_F2_d_p2_x;
-    J[3] = 1/p_M2*b_F2_d_p1_x;
+    J[51] = -1/p_M2*(p_F3_K*b_F3_s_d_F3_a);
+    J[26] = -1/p_M2*(p_F3_K*b_F3_s_d_v2_x);
+    J[42] = -1/p_M2*(p_F3_K*b_F3_s_d_N3_e);
+    J[15] = -1/p_M2*(p_F3_K*b_F3_s_d_p2_y);
+    J[49] = 1/p_M2*(p_F2_K*b_F2_s_d_F2_a);
+    J[22] = 1/p_M2*(p_F2_K*b_F2_s_d_v1_y);
+    J[30] = 1/p_M2*(p_F2_K*b_F2_s_d_v2_y);
+    J[39] = 1/p_M2*(p_F2_K*b_F2_s_d_N2_e);
+    J[12] = 1/p_M2*(p_F2_K*b_F2_s_d_p2_x);
+    J[3] = 1/p_M2*(p_F2_K*b_F2_s_d_p1_x);
     J[43] = 1/p_M2*b_N3_d_N3_e;
     J[16] = 1/p_M2*b_N3_d_p2_y;
-    J[34] = (b_N1_e_rate_part4 >= b_N1_e_rate_part5 ? b_N1_e_rate_part4_d_N1_e : 0) +
-        (b_N1_e_rate_part4 < b_N1_e_rate_part5 ? b_N1_e_rate_part5_d_N1_e : 0);
-    J[4] = b_N1_e_rate_part4 < b_N1_e_rate_part5 ? b_N1_e_rate_part5_d_p1_x : 0;
-    J[40] = (b_N2_e_rate_part6 >= b_N2_e_rate_part7 ? b_N2_e_rate_part6_d_N2_e : 0) +
-        (b_N2_e_rate_part6 < b_N2_e_rate_part7 ? b_N2_e_rate_part7_d_N2_e : 0);
-    J[13] = b_N2_e_rate_part6 < b_N2_e_rate_part7 ? b_N2_e_rate_part7_d_p2_x : 0;
-    J[5] = b_N2_e_rate_part6 < b_N2_e_rate_part7 ? b_N2_e_rate_part7_d_p1_x : 0;
-    J[44] = (b_N3_e_rate_part8 >= b_N3_e_rate_part9 ? b_N3_e_rate_part8_d_N3_e : 0) +
-        (b_N3_e_rate_part8 < b_N3_e_rate_part9 ? b_N3_e_rate_part9_d_N3_e : 0);
-    J[17] = b_N3_e_rate_part8 < b_N3_e_rate_part9 ? b_N3_e_rate_part9_d_p2_y : 0;
+    J[34] = (b_N1_e_rate_part4 >= b_N1_e_rate_part5 ? -1/p_N1_beta : 0) + (b_N1_e_rate_part4 <
+        b_N1_e_rate_part5 ? -1/p_N1_alpha : 0);
+    J[4] = b_N1_e_rate_part4 < b_N1_e_rate_part5 ? -1/p_N1_alpha : 0;
+    J[40] = (b_N2_e_rate_part6 >= b_N2_e_rate_part7 ? -1/p_N2_beta : 0) + (b_N2_e_rate_part6 <
+        b_N2_e_rate_part7 ? -1/p_N2_alpha : 0);
+    J[13] = b_N2_e_rate_part6 < b_N2_e_rate_part7 ? -1/p_N2_alpha : 0;
+    J[5] = b_N2_e_rate_part6 < b_N2_e_rate_part7 ? 1/p_N2_alpha : 0;
+    J[44] = (b_N3_e_rate_part8 >= b_N3_e_rate_part9 ? -1/p_N3_beta : 0) + (b_N3_e_rate_part8 <
+        b_N3_e_rate_part9 ? -1/p_N3_alpha : 0);
+    J[17] = b_N3_e_rate_part8 < b_N3_e_rate_part9 ? -1/p_N3_alpha : 0;
     J[47] = 1/p_F1_beta*b_F1_s_d_F1_a - 1/p_F1_beta;
     J[23] = 1/p_F1_beta*b_F1_s_d_v1_y;
     J[35] = 1/p_F1_beta*b_F1_s_d_N1_e;
