@@ -19,11 +19,6 @@ _ARRAYS = ("t", "x", "y", "psi", "modes")
 _CHUNK = 10_000  # rows of text that are made at a time
 
 
-def endings() -> tuple[str, ...]:
-    """Return the endings of files that can be written."""
-    return tuple(_WRITERS)
-
-
 def save(trajectory: Trajectory, path: Path) -> Path:
     """Write a trajectory; the ending of the path says how.
 

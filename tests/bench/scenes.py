@@ -22,9 +22,7 @@ def written_out(contacts: int) -> str:
     """Return a model of so many bouncing balls, each with five lines of its own."""
     head = "model balls\nparameter M = 1 {kg}\nparameter g = 9.8 {m/s^2}\n"
     body = "".join(CONTACT.format(i=i, height=1 + i / 1000) for i in range(contacts))
-    return (
-        head + body + "approximate default dio: K = 1e5 {N/m}, beta = 4e-3 {s}, alpha = 2e-3 {s}\n"
-    )
+    return head + body + TAIL
 
 
 def to_c(text: str) -> dict[str, str]:
