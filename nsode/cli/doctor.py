@@ -25,6 +25,7 @@ OPTIONAL = {
     "pint": ("checks units", "pip install 'nsode[units]'"),
     "scipy": ("its integrators", "pip install 'nsode[scipy]'"),
     "matplotlib": ("plots", "pip install 'nsode[plot]'"),
+    "ziglang": ("a C compiler from a wheel", "pip install 'nsode[compiler]'"),
 }
 COMPILERS = {
     "gcc": ("compiles the C to run it", "apt install gcc"),
@@ -37,13 +38,16 @@ COMPILERS = {
 @click.command()
 def command() -> None:
     """Show what nsode finds on this machine, what for, and how to get the rest."""
+    from nsode.simulate.compilers import WAY_OUT, compiler
+
     say(f"nsode {nsode.__version__} in {Path(nsode.__file__).parent}")
     say(f"python {platform.python_version()}, {platform.system()} {platform.machine()}")
     _section("libraries", {name: _library(name) for name in LIBRARIES}, LIBRARIES)
     _section("optional libraries", {name: _library(name) for name in OPTIONAL}, OPTIONAL)
     _section("programs", {name: _program(name) for name in COMPILERS}, COMPILERS)
-    if not any(shutil.which(name) for name in ("cc", "gcc", "clang", "tcc")):
-        say("\nno C compiler: models still compile to C, but nsode cannot run them")
+    if compiler() is None:
+        slowly = "CasADi runs them, slowly" if _library("casadi") else "nsode cannot run them"
+        say(f"\nno C compiler: models still compile to C, but {slowly}; {WAY_OUT}")
 
 
 def _section(title: str, found: dict[str, str | None], about: dict[str, tuple[str, str]]) -> None:

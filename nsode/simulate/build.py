@@ -1,14 +1,10 @@
-"""From a model to a library: the system's C compiler, called without a shell."""
+"""From a model to a library: a C compiler, called without a shell."""
 
 from __future__ import annotations
 
-import os
 import platform
-import shlex
-import shutil
 import subprocess
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from hashlib import sha256
@@ -23,6 +19,7 @@ from nsode.integrators.pairs import PAIRS, EmbeddedPair
 from nsode.integrators.splittings import SPLITTINGS
 from nsode.ode import AugmentedODE
 from nsode.simulate import cache
+from nsode.simulate.compilers import Compiler
 
 #: Every name in the C begins with this, whatever the model is called.
 PREFIX = "scene"
@@ -34,40 +31,8 @@ _FLAGS = (
     f"-D{PREFIX}_CHECKS",
 )  # fmt: skip
 FAST = (*_FLAGS, "-O3", "-fno-semantic-interposition", "-fno-tree-slp-vectorize")
-_COMPILERS = ("cc", "gcc", "clang", "tcc")
 _ZERO = (Fraction(0),)
 _PATIENCE = 600  # seconds for one compilation
-
-
-@dataclass(frozen=True, slots=True)
-class Compiler:
-    """A C compiler: the command, and what tells this version of it from another."""
-
-    command: tuple[str, ...]
-    identity: str
-
-
-def compiler() -> Compiler | None:
-    """Return the C compiler of this machine: that of ``CC``, else the first one known."""
-    named = shlex.split(os.environ.get("CC", ""))
-    for command in ([named] if named else []) + [[name] for name in _COMPILERS]:
-        path = shutil.which(command[0])
-        if path is not None:
-            state = Path(path).resolve().stat()
-            identity = f"{path} {command[1:]} {state.st_size} {state.st_mtime_ns}"
-            return Compiler((path, *command[1:]), identity)
-    return None
-
-
-def overlooked() -> list[Diagnostic]:
-    """Return a note where ``CC`` names a compiler that is not there."""
-    named = shlex.split(os.environ.get("CC", ""))
-    if not named or shutil.which(named[0]) is not None:
-        return []
-    found = compiler()
-    used = "no other was found" if found is None else f"`{found.command[0]}` is used"
-    message = f"CC names `{named[0]}`, which is not there; {used}"
-    return [Diagnostic("NS509", message, severity="note")]
 
 
 def library(ode: AugmentedODE, method: str, using: Compiler) -> Path:
@@ -140,7 +105,8 @@ def _compile(texts: Mapping[str, str], folder: Path, using: Compiler, flags: Seq
         command = [*using.command, *attempt, "-o", str(target), "run.c", "-lm"]
         try:
             done = subprocess.run(
-                command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
+                command, cwd=folder, env=using.environment(cache.workbench()),
+                stdin=subprocess.DEVNULL, capture_output=True,
                 text=True, errors="replace", timeout=_PATIENCE,
             )  # fmt: skip
         except subprocess.TimeoutExpired:

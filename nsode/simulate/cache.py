@@ -38,6 +38,11 @@ def folder() -> Path:
     return root / "nsode"
 
 
+def workbench() -> Path:
+    """Return where a compiler may keep what it needs again: inside of the folder of entries."""
+    return folder() / "compiler"
+
+
 def obtain(key: str, build: Callable[[Path], Path]) -> Path:
     """Return the entry of a key, built now if it is not there or was damaged.
 
@@ -70,7 +75,7 @@ def obtain(key: str, build: Callable[[Path], Path]) -> Path:
 
 
 def clear() -> Cleared:
-    """Remove every entry; the folder of a build that may still go on stays.
+    """Remove every entry and what a compiler kept; a build that may still go on stays.
 
     Raises
     ------
@@ -81,9 +86,10 @@ def clear() -> Cleared:
         return Cleared(0, 0)
     home = _opened()
     entries = list(home.glob("*.so"))
-    size = sum(entry.lstat().st_size for entry in entries)
+    size = sum(path.lstat().st_size for path in (*entries, *workbench().rglob("*")))
     for entry in entries:
         entry.unlink(missing_ok=True)
+    shutil.rmtree(workbench(), ignore_errors=True)
     _sweep(home)
     return Cleared(len(entries), size)
 

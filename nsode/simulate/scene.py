@@ -11,7 +11,8 @@ from nsode.integrators import REGISTRY
 from nsode.integrators.pairs import PAIRS
 from nsode.integrators.splittings import SPLITTINGS
 from nsode.ode import AugmentedODE, DifferentialInclusion
-from nsode.simulate.build import Compiler, compiler, library
+from nsode.simulate.build import library
+from nsode.simulate.compilers import WAY_OUT, Compiler, compiler
 from nsode.simulate.guard import Books, with_books
 from nsode.simulate.machine import Machine
 from nsode.simulate.native import load
@@ -87,7 +88,7 @@ def _made(
 
 
 def _no_compiler(method: str) -> Diagnostic:
-    way_out = "install gcc or clang, or name one in CC"
+    way_out = WAY_OUT
     if method in REGISTRY:
         way_out += "; `pip install 'nsode[casadi]'` runs models without, slowly"
     return Diagnostic("NS509", "there is no C compiler on this machine", help=way_out)
@@ -98,5 +99,4 @@ def slowly(made: Scene) -> list[Diagnostic]:
     if made.compiler is not None:
         return []
     message = "no C compiler: CasADi runs the model, some hundred times slower"
-    way_out = "install gcc or clang, or name one in CC"
-    return [Diagnostic("NS509", message, help=way_out, severity="note")]
+    return [Diagnostic("NS509", message, help=WAY_OUT, severity="note")]

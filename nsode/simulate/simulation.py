@@ -16,7 +16,7 @@ from nsode.integrators import REGISTRY
 from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.ode import AugmentedODE, DifferentialInclusion, Output, State, element_names, size
 from nsode.simulate import failure, parameters, solvers
-from nsode.simulate.build import overlooked
+from nsode.simulate.compilers import overlooked
 from nsode.simulate.foresee import foreseen
 from nsode.simulate.guard import verdict
 from nsode.simulate.inputs import Signal, inputs

@@ -11,7 +11,7 @@ import nsode
 from nsode.diagnostics import ModelError
 from nsode.integrators import REGISTRY
 from nsode.integrators.pairs import PAIRS
-from nsode.simulate import RunError, build, scene
+from nsode.simulate import RunError, cache, compilers, scene
 from nsode.simulate.settings import SOLVERS
 from support.models import MODELS
 
@@ -136,23 +136,43 @@ def test_without_a_compiler_casadi_runs_the_model_to_the_same_numbers(method, re
     assert np.array_equal(virtual.modes, compiled.modes)
 
 
-def test_without_a_compiler_a_pair_is_refused(no_compiler):
-    with pytest.raises(ModelError, match="no C compiler"):
+def test_without_a_compiler_a_pair_is_refused_with_the_way_to_one(no_compiler):
+    with pytest.raises(ModelError, match="no C compiler") as refusal:
         nsode.loads(SMOOTH).simulate(method="dopri5")
+    assert "nsode[compiler]" in str(refusal.value)
 
 
 def test_the_compiler_that_cc_names_comes_first(monkeypatch):
     monkeypatch.setenv("CC", "clang -fcolor-diagnostics")
-    found = build.compiler()
+    found = compilers.compiler()
     if found is None or "clang" not in found.command[0]:
         pytest.skip("clang is not installed")
     assert found.command[1:] == ("-fcolor-diagnostics",)
 
 
+def test_the_compiler_of_a_wheel_computes_the_same_run_where_there_is_no_other(
+    monkeypatch, tmp_path
+):
+    pytest.importorskip("ziglang")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("CC", "gcc")
+    expected = nsode.load(MODELS / "two_blocks_conveyor.di").simulate(0.7, method="dopri5")
+    monkeypatch.delenv("CC")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    using = compilers.compiler()
+    assert using is not None
+    assert "ziglang" in using.command[0]
+    found = nsode.load(MODELS / "two_blocks_conveyor.di").simulate(0.7, method="dopri5")
+    assert np.array_equal(found.x, expected.x)
+    assert cache.workbench().is_dir()
+    cache.clear()
+    assert list(cache.folder().iterdir()) == []
+
+
 @pytest.mark.parametrize("cc", ["gcc", "clang", "tcc"])
 def test_every_compiler_computes_the_same_run(cc, monkeypatch):
     monkeypatch.setenv("CC", cc)
-    using = build.compiler()
+    using = compilers.compiler()
     if using is None or cc not in using.command[0]:
         pytest.skip(f"{cc} is not installed")
     found = nsode.load(MODELS / "two_blocks_conveyor.di").simulate(0.7)

@@ -14,6 +14,7 @@ import pytest
 from nsode import cli, compiler
 from nsode.cli import COMMANDS, run
 from nsode.diagnostics import CODES
+from nsode.simulate import compilers
 from support import MODELS, listing
 
 SOUND = """\
@@ -346,10 +347,12 @@ def test_new_refuses_what_cannot_name_a_model(tmp_path, monkeypatch, name, capsy
 
 def test_doctor_passes_on_a_machine_without_anything(monkeypatch, capsys, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr(compilers, "find_spec", lambda _: None)
     assert run(["doctor"]) == 0
     told = capsys.readouterr().out
     assert "no C compiler" in told
     assert "apt install gcc" in told
+    assert "pip install 'nsode[compiler]'" in told
 
 
 def test_code_lists_every_code(capsys):

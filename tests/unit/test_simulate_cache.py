@@ -13,7 +13,7 @@ import pytest
 import nsode
 from nsode.diagnostics import ModelError
 from nsode.simulate import build, cache
-from nsode.simulate.build import overlooked
+from nsode.simulate.compilers import overlooked
 
 TEXT = "model m\nparameter k = 1\nstate p = 1\nder(p) = -k*p\nsimulate 1 step 0.1\n"
 END = 0.9**10  # by Euler
