@@ -30,7 +30,8 @@ _FLAGS = (
     "-std=c99", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared", "-w",
     f"-D{PREFIX}_CHECKS",
 )  # fmt: skip
-FAST = (*_FLAGS, "-O3", "-fno-semantic-interposition", "-fno-tree-slp-vectorize")
+_FAST = (*_FLAGS, "-O3", "-fno-semantic-interposition")
+_LONG = 16  # elements: loops over them gain from wide registers, all other code loses by them
 _ZERO = (Fraction(0),)
 _PATIENCE = 600  # seconds for one compilation
 
@@ -44,10 +45,16 @@ def library(ode: AugmentedODE, method: str, using: Compiler) -> Path:
         NS509 if the compiler fails, NS510 if the cache is not safe.
     """
     texts = sources(ode, method)
-    flags = (*FAST, "-march=native") if _processor() else FAST
+    flags = optimization(ode)
     made_of = [using.identity, _processor(), *flags, *texts, *texts.values()]
     key = sha256("\0".join(made_of).encode()).hexdigest()[:32]
     return cache.obtain(key, lambda folder: _compile(texts, folder, using, flags))
+
+
+def optimization(ode: AugmentedODE) -> tuple[str, ...]:
+    """Return the flags with which the compiler makes the fastest code of a model."""
+    longest = max((len(item.range) for item in ode.states if item.range), default=0)
+    return (*_FAST, "-march=native") if longest >= _LONG and _processor() else _FAST
 
 
 def sources(ode: AugmentedODE, method: str) -> dict[str, str]:

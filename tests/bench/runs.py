@@ -11,12 +11,12 @@ from statistics import median
 
 import nsode
 from measure import table
-from nsode.simulate.build import FAST, sources
+from nsode.simulate.build import optimization, sources
 from nsode.simulate.observe import observe
 from support.models import MODELS
 
 HERE = Path(__file__).parent
-SCENES = ("rolling_sphere", "two_blocks_conveyor", "bouncing_mass")
+SCENES = ("rolling_sphere", "two_blocks_conveyor", "bouncing_mass", "burridge_knopoff")
 STEPS, ROWS, ROUNDS = 1_000_000, 10_000, 11
 
 
@@ -57,14 +57,16 @@ def _seconds(action: object) -> float:
 
 
 def _bare(model: nsode.Model, step: float, folder: Path) -> Path:
-    texts = sources(observe(model.inclusion, model.ode).ode, "rk4")
+    ode = observe(model.inclusion, model.ode).ode
+    texts = sources(ode, "rk4")
     for name in ("scene.h", "scene.c"):
         (folder / name).write_text(texts[name])
-    flags = [flag for flag in FAST if flag not in ("-shared", "-fPIC", "-Dscene_CHECKS")]
+    alone = ("-shared", "-fPIC", "-Dscene_CHECKS")
+    flags = [flag for flag in optimization(ode) if flag not in alone]
     p = ",".join(map(repr, model.p0.tolist()))
     definitions = [f"-DP={p}", f"-DSTEP={step}", f"-DSTEPS={STEPS}", "-DROUNDS=3"]
     program = folder / "bare"
-    command = ["cc", *flags, "-march=native", *definitions, "-I", folder, HERE / "bare.c"]
+    command = ["cc", *flags, *definitions, "-I", folder, HERE / "bare.c"]
     subprocess.run([*map(str, command), "-o", str(program), "-lm"], check=True)
     return program
 

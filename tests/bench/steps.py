@@ -15,11 +15,7 @@ from nsode.ode import element_names
 from support import MODELS
 
 HERE = Path(__file__).parent
-FLAGS = {
-    "native": "-O3 -march=native",
-    "native, no slp": "-O3 -march=native -fno-tree-slp-vectorize",
-    "portable": "-O2",
-}
+FLAGS = ("-O3 -march=native", "-O3", "-O2")
 
 
 class Scene(NamedTuple):
@@ -58,7 +54,7 @@ def main() -> None:
 def _row(scene: Scene, flags: str) -> tuple[str, ...]:
     with tempfile.TemporaryDirectory() as folder:
         told = subprocess.run(
-            [str(_build(scene, FLAGS[flags], Path(folder)))],
+            [str(_build(scene, flags, Path(folder)))],
             check=True, capture_output=True, text=True,
         ).stdout.splitlines()  # fmt: skip
     pairs = [tuple(map(float, line.split())) for line in told[:-1]]

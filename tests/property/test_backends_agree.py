@@ -176,6 +176,16 @@ def test_a_let_that_is_a_number_divides_as_ieee_says():
     assert load_module(ode).rhs(0.0, np.ones(1))[0] == np.inf
 
 
+def test_a_choice_of_a_number_divides_as_ieee_says():
+    text = "model m\nstate x = 1\nder(x) = (if x > 2 then x else 0)^-1\n"
+    assert load_module(nsode.loads(text).ode).rhs(0.0, np.ones(1))[0] == np.inf
+
+
+def test_the_time_divides_as_ieee_says():
+    ode = nsode.loads("model m\nstate x = 1\nder(x) = 1/t + t^-1\n").ode
+    assert load_module(ode).rhs(0.0, np.ones(1))[0] == np.inf
+
+
 def test_the_comparison_can_fail():
     ode = Maker(0).make()
     rates = load_module(ode).rhs

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from nsode.backends.numpy.lower import Environment, depends_on_index, is_plain, lower
+from nsode.backends.numpy.lower import Environment, depends_on_index, lower, may_be_plain
 from nsode.expr import Expr, IndexRange, Number
 from nsode.ode import (
     AugmentedODE,
@@ -95,7 +95,7 @@ class Writer:
         if item.range is None or whole is None:
             text = lower(item.value, self.env)
             # a number of Python's would raise where one of NumPy's divides by zero
-            yield f"{name} = real({text})" if is_plain(item.value) else f"{name} = {text}"
+            yield f"{name} = real({text})" if may_be_plain(item.value) else f"{name} = {text}"
         elif len(item.range) == len(whole):
             yield f"{name} = {self._family(item.value, item.range)}"
         else:

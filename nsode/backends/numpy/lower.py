@@ -150,20 +150,20 @@ def _may_raise(function: str, args: tuple[Expr, ...]) -> bool:
         case "/", (_, Number(divisor)) if divisor:
             return False
         case (("/" | "^"), _):
-            return all(map(is_plain, args))
+            return all(map(may_be_plain, args))
         case _:
             return False
 
 
-def is_plain(expr: Expr) -> bool:
-    """Whether the text of an expression gives a number of Python's own."""
+def may_be_plain(expr: Expr) -> bool:
+    """Whether the text of an expression can give a number of Python's own."""
     match expr:
         case Number() | Index():
             return True
         case Call("neg" | "+" | "*" | "/" as function, args):
-            return all(map(is_plain, args)) and not _may_raise(function, args)
+            return all(map(may_be_plain, args)) and not _may_raise(function, args)
         case If(_, then, otherwise):
-            return is_plain(then) and is_plain(otherwise)
+            return may_be_plain(then) or may_be_plain(otherwise)
         case _:
             return False
 
