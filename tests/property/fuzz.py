@@ -1,7 +1,8 @@
 """Fuzz the compiler: ``python tests/property/fuzz.py --runs 1000000 [--seed S] [--jobs N]``.
 
 Each input is a typed random model, a shipped model or a refused one, whole or damaged by tokens or
-bytes. It is compiled to C. Nothing but a ModelError may come out, and none may take a second.
+bytes. It is compiled to C. Nothing but a ModelError may come out, no
+warning of Python's, and none may take a second.
 ``--only I`` runs input I of a seed alone and prints it.
 """
 
@@ -11,6 +12,7 @@ import argparse
 import sys
 import time
 import traceback
+import warnings
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 from functools import cache, partial
@@ -61,6 +63,7 @@ def compile_one(content: bytes) -> str:
 def run(seed: int, numbers: range) -> tuple[Counter[str], list[str], float]:
     """Return the outcomes, the failures, and the longest time."""
     compile_one(_WARM_UP)
+    warnings.simplefilter("error")
     outcomes: Counter[str] = Counter()
     failures = []
     longest = 0.0
