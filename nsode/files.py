@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 from collections.abc import Callable, Mapping
@@ -26,10 +27,9 @@ def write_all(files: Mapping[str, str], folder: Path) -> list[Path]:
         If a name is more than the name of a file.
     """
     targets = [_inside(folder, name) for name in files]
-    folder.mkdir(parents=True, exist_ok=True)
+    _make(folder)
     for target in targets:
-        if target.is_dir():
-            raise IsADirectoryError(21, "is a directory", str(target))
+        _refuse_folder(target)
     drafts: list[Path] = []
     try:
         for target, text in zip(targets, files.values(), strict=True):
@@ -57,7 +57,8 @@ def write_generated(files: Mapping[str, str], folder: Path) -> list[Path]:
         target = _inside(folder, name)
         signed = _MARK in text[:_HEAD].lower().encode()
         if signed and target.is_file() and _MARK not in target.read_bytes()[:_HEAD].lower():
-            raise FileExistsError(17, "a file that nsode did not write is there", str(target))
+            told = "a file that nsode did not write is there"
+            raise FileExistsError(errno.EEXIST, told, str(target))
     return write_all(files, folder)
 
 
@@ -69,8 +70,7 @@ def write_binary(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     OSError
         If the file cannot be written; an older one stays as it was.
     """
-    if path.is_dir():
-        raise IsADirectoryError(21, "is a directory", str(path))
+    _refuse_folder(path)
     draft = _draft(path, write)
     try:
         draft.replace(path)
@@ -80,19 +80,31 @@ def write_binary(path: Path, write: Callable[[IO[bytes]], object]) -> None:
 
 
 def create(path: Path, text: str) -> None:
-    """Write a file that does not exist yet.
+    """Write a file that does not exist yet, in a folder that is made if need be.
 
     Raises
     ------
     FileExistsError
         If something of that name is there.
     """
+    _make(path.parent)
     os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
     try:
         write_all({path.name: text}, path.parent)
     except BaseException:
         path.unlink(missing_ok=True)
         raise
+
+
+def _make(folder: Path) -> None:
+    if folder.exists() and not folder.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, "is no folder", str(folder))
+    folder.mkdir(parents=True, exist_ok=True)
+
+
+def _refuse_folder(target: Path) -> None:
+    if target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "is a folder", str(target))
 
 
 def _inside(folder: Path, name: str) -> Path:
@@ -111,8 +123,10 @@ def _draft(target: Path, write: Callable[[IO[bytes]], object]) -> Path:
             write(file)
             file.flush()
             os.fsync(file.fileno())
-    except BaseException:
+    except BaseException as error:
         draft.unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            error.filename = str(target)  # nobody knows of the draft
         raise
     return draft
 

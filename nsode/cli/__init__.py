@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
+from pathlib import Path
 from typing import NoReturn
 
 import click
@@ -94,7 +95,16 @@ def main() -> NoReturn:
     """Run the command line of this process."""
     if "_NSODE_COMPLETE" in os.environ:
         nsode.main(prog_name="nsode")
+    _open_streams()
     if hasattr(sys.stdout, "reconfigure"):
         # A terminal that cannot show a character gets its number, not a traceback.
         sys.stdout.reconfigure(errors="backslashreplace")
     sys.exit(run(sys.argv[1:]))
+
+
+def _open_streams() -> None:
+    """Open what a shell closed, as in ``nsode ... >&-``, on nothing."""
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            stream = Path(os.devnull).open(mode, encoding="utf-8")  # noqa: SIM115 - to the end
+            setattr(sys, name, stream)

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from nsode.cli.model import law_options, limit_option, load
+from nsode.cli.model import with_model
 from nsode.cli.terminal import complain, say
-from nsode.limits import Limits
 
 if TYPE_CHECKING:
     import numpy as np
@@ -22,7 +21,6 @@ _MOST = 100  # states of a run that are looked at
 
 
 @click.command()
-@click.argument("model")
 @click.option(
     "--format", "style", type=click.Choice(["text", "json"]), default="text", show_default=True,
     help="For a person, or for a script.",
@@ -35,28 +33,18 @@ _MOST = 100  # states of a run that are looked at
     "--along", "run", type=click.Path(path_type=Path), metavar="RUN.npz",
     help=f"Look also at {_MOST} states of a run that was saved.",
 )  # fmt: skip
-@law_options
-@limit_option
-def command(
-    model: str,
-    style: str,
-    impact_speed: float | None,
-    run: Path | None,
-    friction: str | None,
-    contact: str | None,
-    limits: Limits,
-) -> int:
+@with_model
+def command(model: Model, style: str, impact_speed: float | None, run: Path | None) -> int:
     """Show what is known of MODEL before it runs.
 
     Effective mass, the largest stable step of each method and what limits it, restitution,
     penetration and presliding, and what the scene could do without.
     """
-    loaded = load(model, limits, friction=friction, contact=contact)
-    states = () if run is None else _states(loaded, run)
-    found = loaded.analyze(along=states, impact_speed=impact_speed)
-    said = {(d.code, d.message) for d in loaded.diagnostics}
+    states = () if run is None else _states(model, run)
+    found = model.analyze(along=states, impact_speed=impact_speed)
+    said = {(d.code, d.message) for d in model.diagnostics}
     fresh = [d for d in found.diagnostics if (d.code, d.message) not in said]
-    complain([*loaded.diagnostics, *fresh], loaded.source)
+    complain([*model.diagnostics, *fresh], model.source)
     say(json.dumps(found.as_json()) if style == "json" else str(found))
     return 0
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import click
 
 from nsode.cli.failure import REFUSED, status_of
-from nsode.cli.model import STANDARD_INPUT, limit_option, load, summary
+from nsode.cli.model import STANDARD_INPUT, complete_files, limit_option, load, summary
 from nsode.cli.terminal import complain, say
 from nsode.diagnostics import SCHEMA_VERSION, Diagnostic, ModelError, as_json
 from nsode.limits import Limits
@@ -27,7 +27,7 @@ class Finding:
 
 
 @click.command()
-@click.argument("models", nargs=-1, required=True)
+@click.argument("models", nargs=-1, required=True, shell_complete=complete_files)
 @click.option(
     "--format", "style", type=click.Choice(["text", "json"]), default="text", show_default=True,
     help="For a person, or for an editor or a script.",

@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Literal, cast
 import click
 
 from nsode.backends import TARGETS, Options
-from nsode.cli.failure import USAGE, io_diagnostic
-from nsode.cli.model import law_options, limit_option, load, summary
-from nsode.cli.terminal import bold, complain, quiet, say
+from nsode.cli.failure import writing
+from nsode.cli.model import folder_option, summary, with_model
+from nsode.cli.named import named
+from nsode.cli.terminal import bold, complain, quiet, say, typed
 from nsode.diagnostics import ModelError
-from nsode.files import write_generated
-from nsode.limits import Limits
 from nsode.ode import AugmentedODE
 from nsode.passes.count import operations
 
@@ -38,31 +37,12 @@ def _names(
     return None if value is None else [name.strip() for name in value.split(",")]
 
 
-def _numbers(
-    context: click.Context, parameter: click.Parameter, value: tuple[str, ...]
-) -> dict[str, float]:
-    found: dict[str, float] = {}
-    for item in value:
-        name, equals, number = item.partition("=")
-        try:
-            found[name.strip()] = float(number)
-        except ValueError:
-            equals = ""
-        if not equals:
-            raise click.BadParameter(f"`{item}` is not NAME=NUMBER")
-    return found
-
-
 @click.command()
-@click.argument("model")
 @click.option(
     "-t", "--target", type=click.Choice(list(TARGETS)), default="c", show_default=True,
     help="What to write.",
 )  # fmt: skip
-@click.option(
-    "-o", "--output", "folder", type=click.Path(path_type=Path), default=Path(),
-    help="The folder to write into, made if need be.  [default: here]",
-)  # fmt: skip
+@folder_option
 @click.option(
     "--real", type=click.Choice(["double", "float"]), default="double", show_default=True,
     help="The numbers of the C.",
@@ -73,17 +53,16 @@ def _numbers(
     help="Keep only what these outputs and states, such as p,v, depend on.",
 )  # fmt: skip
 @click.option(
-    "--bake", callback=_numbers, multiple=True, metavar="NAME=NUMBER",
+    "--bake", callback=named(float), multiple=True, metavar="NAME=NUMBER",
     help="Write a parameter as this number, in SI, for good; may be repeated.",
 )  # fmt: skip
-@law_options
 @click.option(
     "--ledger", is_flag=True,
     help="Add what each element stores, dissipates and is given to the outputs.",
 )  # fmt: skip
-@limit_option
+@with_model
 def command(
-    model: str,
+    model: Model,
     target: str,
     folder: Path,
     real: str,
@@ -91,32 +70,25 @@ def command(
     outputs: list[str] | None,
     bake: dict[str, float],
     ledger: bool,
-    friction: str | None,
-    contact: str | None,
-    limits: Limits,
 ) -> int:
     """Write MODEL as code that integrates.
 
     The C is plain C99 without allocation: copy it anywhere. Every file is written
     whole, or none is.
     """
-    loaded = load(model, limits, friction=friction, contact=contact)
-    complain(loaded.diagnostics, loaded.source)
+    complain(model.diagnostics, model.source)
     if ledger:
-        loaded = loaded.with_ledger()
-    whole = loaded.ode
+        model = model.with_ledger()
+    whole = model.ode
     if outputs is not None:
-        loaded = _only(loaded, outputs)
+        model = _only(model, outputs)
     if bake:
-        loaded = loaded.baked(bake)
+        model = model.baked(bake)
     options = Options(prefix=prefix, real=cast(Literal["double", "float"], real))
-    try:
-        paths = write_generated(loaded.emit(target, options), folder)
-    except OSError as error:
-        complain([io_diagnostic("NS602", error)])
-        return USAGE
-    say(f"{bold(loaded.name)}: {summary(loaded)}, {operations(loaded.ode):,} operations")
-    _show_dropped(whole, loaded.ode)
+    with writing():
+        paths = model.compile(target, folder, options)
+    say(f"{bold(model.name)}: {summary(model)}, {operations(model.ode):,} operations")
+    _show_dropped(whole, model.ode)
     _show(paths)
     return 0
 
@@ -159,7 +131,7 @@ def _next(paths: list[Path]) -> str | None:
     for path in paths:
         match path.suffix:
             case ".c":
-                return f"gcc -O2 -I {path.parent} main.c {path} -lm"
+                return f"gcc -O2 -I {typed(path.parent)} main.c {typed(path)} -lm"
             case ".py":
-                return f"PYTHONPATH={path.parent} python -c 'import {path.stem}'"
+                return f"PYTHONPATH={typed(path.parent)} python -c 'import {path.stem}'"
     return None

@@ -3,59 +3,49 @@
 from __future__ import annotations
 
 import sys
+from operator import methodcaller
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from nsode.cli.failure import USAGE, io_diagnostic
-from nsode.cli.model import law_options, limit_option, load
+from nsode.cli.failure import writing
+from nsode.cli.model import with_model
 from nsode.cli.terminal import complain, paints, say
-from nsode.files import write_all
-from nsode.limits import Limits
+from nsode.files import write_binary
+
+if TYPE_CHECKING:
+    from nsode.compiler import Model
 
 
 @click.command()
-@click.argument("model")
 @click.option(
     "--format", "style", type=click.Choice(["text", "markdown", "latex"]), default="text",
     show_default=True, help="For a terminal, a notebook or a paper.",
 )  # fmt: skip
 @click.option(
-    "-o", "--output", type=click.Path(path_type=Path),
+    "-o", "--output", default="-", metavar="FILE",
     help="The file to write.  [default: standard output]",
 )  # fmt: skip
-@law_options
-@limit_option
-def command(
-    model: str,
-    style: str,
-    output: Path | None,
-    friction: str | None,
-    contact: str | None,
-    limits: Limits,
-) -> int:
+@with_model
+def command(model: Model, style: str, output: str) -> int:
     """Show how the differential inclusion of MODEL becomes an ODE.
 
     The inclusion as it is written, each replacement with its line and its equation in
     the paper, the appended states, and the augmented ODE.
     """
-    from nsode.explain import explain
-
-    loaded = load(model, limits, friction=friction, contact=contact)
-    explanation = explain(loaded.inclusion, loaded.ode)
+    complain(model.diagnostics, model.source)
+    explanation = model.explain()
     match style:
         case "text":
-            shown = explanation.text(color=output is None and paints(sys.stdout))
+            shown = explanation.text(color=output == "-" and paints(sys.stdout))
         case "markdown":
             shown = explanation.markdown()
         case _:
             shown = explanation.latex()
-    if output is None:
+    if output == "-":
         say(shown.rstrip("\n"))
         return 0
-    try:
-        write_all({output.name: shown}, output.parent)
-    except OSError as error:
-        complain([io_diagnostic("NS602", error)])
-        return USAGE
+    with writing():
+        write_binary(Path(output), methodcaller("write", shown.encode()))
     return 0

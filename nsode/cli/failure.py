@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Literal
 
 import click
 
@@ -24,6 +27,7 @@ EXTRAS = {
     "matplotlib": "plot",
 }
 
+_DEEDS = {"NS601": ("read", "standard input"), "NS602": ("write", "standard output")}
 _OUTSIDE = frozenset({"NS601", "NS602", "NS603"})
 
 
@@ -46,6 +50,8 @@ def report(error: BaseException) -> int:
             return _BROKEN_PIPE
         case ModuleNotFoundError(name=str(name)) if name in EXTRAS:
             complain([missing(name)])
+        case OSError(filename=None):
+            complain([io_diagnostic("NS602", error)])
         case OSError():
             complain([io_diagnostic("NS601", error)])
         case _:
@@ -59,12 +65,28 @@ def status_of(error: ModelError) -> int:
     return USAGE if errors and _OUTSIDE.issuperset(errors) else REFUSED
 
 
-def io_diagnostic(code: str, error: OSError) -> Diagnostic:
-    """Return what the system says about a file in the words of a message."""
-    deed = "write" if code == "NS602" else "read"
-    place = f"`{os.fsdecode(error.filename)}`" if isinstance(error.filename, str | bytes) else ""
+@contextmanager
+def writing() -> Iterator[None]:
+    """Refuse with NS602 what the system does not let us write.
+
+    Raises
+    ------
+    ModelError
+        In place of an OSError.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise ModelError([io_diagnostic("NS602", error)]) from error
+
+
+def io_diagnostic(code: Literal["NS601", "NS602"], error: OSError) -> Diagnostic:
+    """Return what the system says of a file, or of a standard stream, as a message."""
+    deed, stream = _DEEDS[code]
+    named = isinstance(error.filename, str | bytes)
+    place = f"`{os.fsdecode(error.filename)}`" if named else stream
     reason = (error.strerror or str(error) or type(error).__name__).lower()
-    return Diagnostic(code, f"cannot {deed} {place}: {reason}" if place else f"{reason}")
+    return Diagnostic(code, f"cannot {deed} {place}: {reason}")
 
 
 def missing(module: str) -> Diagnostic:

@@ -5,10 +5,16 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from dataclasses import fields
-from typing import TYPE_CHECKING, TypeVar
+from functools import wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
+from click.shell_completion import CompletionItem
 
+from nsode.cli.failure import io_diagnostic
+from nsode.cli.named import named
+from nsode.diagnostics import ModelError
 from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.ode import Binding, SetValuedTerm, size
 from nsode.regularizations import laws_of
@@ -31,36 +37,56 @@ def source_of(argument: str, limits: Limits = DEFAULT_LIMITS) -> Source:
     ModelError
         If it cannot be read.
     """
-    if argument == STANDARD_INPUT:
-        return decode("<stdin>", sys.stdin.buffer.read(limits.size + 1), limits)
-    return read(argument, limits)
+    if argument != STANDARD_INPUT:
+        return read(argument, limits)
+    try:
+        content = sys.stdin.buffer.read(limits.size + 1)
+    except OSError as error:
+        raise ModelError([io_diagnostic("NS601", error)]) from error
+    return decode("<stdin>", content, limits)
 
 
-def load(
-    argument: str,
-    limits: Limits = DEFAULT_LIMITS,
-    *,
-    friction: str | None = None,
-    contact: str | None = None,
-) -> Model:
-    """Load the model that an argument names, under other laws if they are named.
+def load(argument: str, limits: Limits = DEFAULT_LIMITS) -> Model:
+    """Load the model that an argument names.
 
     Raises
     ------
     ModelError
-        If it cannot be read or is refused, also under these laws.
+        If it cannot be read or is refused.
     """
     from nsode import compiler
 
-    model = compiler.compile_source(source_of(argument, limits), limits)
-    return model.with_law(friction=friction, contact=contact)
+    return compiler.compile_source(source_of(argument, limits), limits)
 
 
-_Command = TypeVar("_Command", bound=Callable[..., int])
+_Command = Callable[..., int]
 
 
-def law_options(command: _Command) -> _Command:
-    """Give a command the options ``--friction`` and ``--contact``."""
+def with_model(command: _Command) -> _Command:
+    """Give a command the argument MODEL, and the options that say how to take it.
+
+    The command gets the model itself, loaded and under the laws that are asked for.
+    """
+
+    @wraps(command)
+    def loading(
+        model: str, limits: Limits, friction: str | None, contact: str | None, **options: Any
+    ) -> int:
+        loaded = load(model, limits).with_law(friction=friction, contact=contact)
+        return command(loaded, **options)
+
+    argument = click.argument("model", shell_complete=complete_files)
+    return argument(_law_options(limit_option(loading)))
+
+
+def complete_files(
+    context: click.Context, parameter: click.Parameter, incomplete: str
+) -> list[CompletionItem]:
+    """Let the shell complete an argument as the name of a file."""
+    return [CompletionItem(incomplete, type="file")]
+
+
+def _law_options(command: _Command) -> _Command:
     for option, kind in (("--contact", "dio"), ("--friction", "sgn")):
         laws = laws_of(kind)
         text = f"Another law for every {kind}: {', '.join(laws)}."
@@ -77,14 +103,25 @@ def limit_option(command: _Command) -> _Command:
     )(command)  # fmt: skip
 
 
+def folder_option(command: _Command) -> _Command:
+    """Give a command the option ``-o``, which becomes its argument ``folder``."""
+    return click.option(
+        "-o", "--output", "folder", callback=_folder, metavar="FOLDER",
+        help="The folder to write into, made if need be.  [default: here]",
+    )(command)  # fmt: skip
+
+
+def _folder(context: click.Context, parameter: click.Parameter, value: str | None) -> Path:
+    if value in ("", "-"):
+        raise click.BadParameter(f"`{value}` is no folder")
+    return Path(value or "")
+
+
+_whole_numbers = named(lambda text: int(float(text)))
+
+
 def _limits(context: click.Context, parameter: click.Parameter, value: tuple[str, ...]) -> Limits:
-    found: dict[str, int] = {}
-    for item in value:
-        name, _, number = item.partition("=")
-        try:
-            found[name.strip()] = int(float(number))
-        except (ValueError, OverflowError):
-            raise click.BadParameter(f"`{item}` is not NAME=NUMBER") from None
+    found = _whole_numbers(context, parameter, value)
     try:
         return Limits.of(found)
     except ValueError as error:

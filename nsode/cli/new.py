@@ -6,9 +6,10 @@ from pathlib import Path
 
 import click
 
-from nsode.cli.failure import USAGE, io_diagnostic
-from nsode.cli.terminal import bold, complain, quiet, say
-from nsode.diagnostics import Diagnostic
+from nsode.cli.failure import writing
+from nsode.cli.model import folder_option
+from nsode.cli.terminal import bold, quiet, say, typed
+from nsode.diagnostics import Diagnostic, ModelError
 from nsode.files import create
 
 STARTER = """\
@@ -44,33 +45,31 @@ simulate 2 {s} step 1e-3 {s} method rk4
 
 @click.command()
 @click.argument("name")
-@click.option(
-    "-o", "--output", "folder", type=click.Path(path_type=Path), default=Path(),
-    help="The folder to write into.  [default: here]",
-)  # fmt: skip
+@folder_option
 def command(name: str, folder: Path) -> int:
     """Write NAME.di, a model to start from. A file that exists is left alone."""
     name = name.removesuffix(".di")
     text = STARTER.replace("NAME", name)
     _refuse_bad_name(name, text)
     path = folder / f"{name}.di"
+    with writing():
+        _create(path, text)
+    say(f"wrote {bold(str(path))}")
+    say(quiet(f"next: nsode compile {typed(path)} -t c -o build"))
+    return 0
+
+
+def _create(path: Path, text: str) -> None:
     try:
         create(path, text)
-    except FileExistsError:
-        complain([Diagnostic("NS602", f"`{path}` exists", help="choose another name")])
-        return USAGE
-    except OSError as error:
-        complain([io_diagnostic("NS602", error)])
-        return USAGE
-    say(f"wrote {bold(str(path))}")
-    say(quiet(f"next: nsode compile {path} -t c -o build"))
-    return 0
+    except FileExistsError as error:
+        way_out = "choose another name"
+        raise ModelError([Diagnostic("NS602", f"`{path}` exists", help=way_out)]) from error
 
 
 def _refuse_bad_name(name: str, text: str) -> None:
     """Let the language itself judge a name: only a model that compiles is written."""
     from nsode import compiler
-    from nsode.diagnostics import ModelError
 
     if not name.isidentifier():
         message = f"`{name}` cannot name a model"

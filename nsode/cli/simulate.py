@@ -4,34 +4,62 @@ from __future__ import annotations
 
 import os
 import sys
-import time
-from collections.abc import Callable
+from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from nsode.cli.failure import USAGE, io_diagnostic, missing
-from nsode.cli.model import law_options, limit_option, load
+from nsode.cli.failure import missing, writing
+from nsode.cli.model import with_model
+from nsode.cli.named import named
+from nsode.cli.progress import Bar
 from nsode.cli.terminal import complain, quiet, say
 from nsode.diagnostics import Diagnostic, ModelError
-from nsode.limits import Limits
 
 if TYPE_CHECKING:
     from nsode.compiler import Model
-    from nsode.simulate import Manner, Trajectory, Wish
+    from nsode.simulate import Trajectory
     from nsode.simulate.inputs import Signal
-
-_T = TypeVar("_T")
 
 _INTERRUPTED = 130
 _PICTURES = (".png", ".pdf", ".svg")
-_PLOT = "-"  # what `--plot` without a file stands for
+_UNNAMED = "-"  # what `--plot` without a file stands for
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Order:
+    """What the command line asks of a run."""
+
+    duration: float | None
+    step: float | None
+    method: str | None
+    tolerance: float | None
+    every: int | None
+    parameters: dict[str, float]
+    inputs: dict[str, str]
+    output: Path | None
+    plot: str | None
+    ledger: bool
+    strict: bool
+    no_guard: bool
+
+    def picture(self, model: str) -> Path | None:
+        """Return the file to draw into."""
+        if self.plot is None:
+            return None
+        return Path(f"{model}.png" if self.plot == _UNNAMED else self.plot)
+
+
+def _picture(context: click.Context, parameter: click.Parameter, value: str | None) -> str | None:
+    if value in (None, _UNNAMED) or Path(str(value)).suffix in _PICTURES:
+        return value
+    endings = ", ".join(f"`{ending}`" for ending in _PICTURES)
+    raise click.BadParameter(f"`{value}` must end in one of {endings}")
 
 
 @click.command()
-@click.argument("model")
 @click.option("--for", "duration", type=float, metavar="SECONDS", help="How long.")
 @click.option("--step", type=float, metavar="SECONDS", help="The size of a step.")
 @click.option(
@@ -41,11 +69,11 @@ _PLOT = "-"  # what `--plot` without a file stands for
 )  # fmt: skip
 @click.option("--tol", "tolerance", type=float, help="Relative error of such a method's steps.")
 @click.option(
-    "-p", "--parameter", "parameters", multiple=True, metavar="NAME=VALUE",
+    "-p", "--parameter", "parameters", callback=named(float), multiple=True, metavar="NAME=NUMBER",
     help="Another value of a parameter or a constant, such as N.K=1e6, in SI.",
 )  # fmt: skip
 @click.option(
-    "-u", "--input", "inputs", multiple=True, metavar="NAME=DATA",
+    "-u", "--input", "inputs", callback=named(str), multiple=True, metavar="NAME=DATA",
     help="An input: a number, or a CSV file with times in its first column.",
 )  # fmt: skip
 @click.option("--every", type=int, metavar="STEPS", help="Store one row every so many steps.")
@@ -54,7 +82,7 @@ _PLOT = "-"  # what `--plot` without a file stands for
     help="Write what happened to a .npz or .csv file.",
 )  # fmt: skip
 @click.option(
-    "--plot", is_flag=False, flag_value=_PLOT, metavar="[FILE]",
+    "--plot", is_flag=False, flag_value=_UNNAMED, callback=_picture, metavar="[FILE]",
     help="Draw it.  [default file: MODEL.png]",
 )  # fmt: skip
 @click.option(
@@ -63,54 +91,29 @@ _PLOT = "-"  # what `--plot` without a file stands for
 )  # fmt: skip
 @click.option("--strict", is_flag=True, help="Refuse what draws a warning before the run.")
 @click.option("--no-guard", is_flag=True, help="Go on where energy comes from nothing.")
-@law_options
-@limit_option
-def command(
-    model: str,
-    duration: float | None,
-    step: float | None,
-    method: str | None,
-    tolerance: float | None,
-    parameters: tuple[str, ...],
-    inputs: tuple[str, ...],
-    every: int | None,
-    output: Path | None,
-    plot: str | None,
-    ledger: bool,
-    strict: bool,
-    no_guard: bool,
-    friction: str | None,
-    contact: str | None,
-    limits: Limits,
-) -> int:
+@with_model
+def command(model: Model, **options: Any) -> int:
     """Run MODEL as compiled C and show what happened.
 
     Exit code 0: it ran; 1: it is refused, or went wrong; 2: a file cannot be read or
     written; 130: Ctrl-C. Rows before that are kept.
     """
-    from nsode.simulate import Manner, RunError, Wish
+    from nsode.simulate import RunError
     from nsode.simulate.foresee import TOLD
 
-    loaded = load(model, limits, friction=friction, contact=contact)
-    if ledger:
-        loaded = loaded.with_ledger()
-    drawing = None if plot is None else Path(f"{loaded.name}.png" if plot == _PLOT else plot)
-    _check_places(output, drawing)
-    complain([d for d in loaded.diagnostics if d.code not in TOLD], loaded.source)
-    wish = Wish(duration, step, every, method, tolerance=tolerance)
-
-    def tell(diagnostic: Diagnostic) -> None:
-        complain([diagnostic], loaded.source)
-
-    manner = Manner(strict, not no_guard, tell, _Bar() if sys.stderr.isatty() else None, limits)
+    order = Order(**options)
+    drawing = order.picture(model.name)
+    _check_places(order.output, drawing)
+    complain([d for d in model.diagnostics if d.code not in TOLD], model.source)
     try:
-        trajectory = _run(loaded, wish, parameters, inputs, manner)
+        trajectory = _run(model.with_ledger() if order.ledger else model, order)
         status = _INTERRUPTED if trajectory.meta["run"]["interrupted"] else 0
     except RunError as error:
         trajectory, status = error.trajectory, 1
         complain(error.diagnostics, error.source)
     say(str(trajectory))
-    return _write(trajectory, output, drawing) or status
+    _write(trajectory, order.output, drawing)
+    return status
 
 
 def _check_places(output: Path | None, drawing: Path | None) -> None:
@@ -119,12 +122,8 @@ def _check_places(output: Path | None, drawing: Path | None) -> None:
 
     if output is not None:
         check_ending(output)
-    if drawing is not None:
-        if drawing.suffix not in _PICTURES:
-            known = ", ".join(f"`{ending}`" for ending in _PICTURES)
-            raise _unwritable(drawing, f"the name must end in one of {known}")
-        if find_spec("matplotlib") is None:
-            raise ModelError([missing("matplotlib")])
+    if drawing is not None and find_spec("matplotlib") is None:
+        raise ModelError([missing("matplotlib")])
     for path in (output, drawing):
         if path is None:
             continue
@@ -140,37 +139,28 @@ def _unwritable(path: Path, why: str) -> ModelError:
     return ModelError([Diagnostic("NS602", f"cannot write `{path}`: {why}")])
 
 
-def _run(
-    model: Model, wish: Wish, parameters: tuple[str, ...], inputs: tuple[str, ...], manner: Manner
-) -> Trajectory:
-    from nsode.simulate import simulate
+def _run(model: Model, order: Order) -> Trajectory:
+    from nsode.simulate import Manner, Wish, simulate
 
-    overrides = dict(_pair(text, _number) for text in parameters)
-    signals = dict(_pair(text, _signal) for text in inputs)
+    def tell(diagnostic: Diagnostic) -> None:
+        complain([diagnostic], model.source)
+
+    bar = Bar() if sys.stderr.isatty() else None
     try:
         return simulate(
-            model.inclusion, model.ode, wish, overrides=overrides, signals=signals, manner=manner
+            model.inclusion,
+            model.ode,
+            Wish(order.duration, order.step, order.every, order.method, tolerance=order.tolerance),
+            overrides=order.parameters,
+            signals={name: _signal(name, text) for name, text in order.inputs.items()},
+            manner=Manner(order.strict, not order.no_guard, tell, bar, model.limits),
         )
     except ModelError as error:
         error.source = error.source or model.source
         raise
     finally:
-        if isinstance(manner.progress, _Bar):
-            manner.progress.wipe()
-
-
-def _pair(text: str, read: Callable[[str, str], _T]) -> tuple[str, _T]:
-    name, equals, value = text.partition("=")
-    if not equals or not name.strip():
-        raise click.UsageError(f"`{text}` is not NAME=VALUE")
-    return name.strip(), read(name.strip(), value.strip())
-
-
-def _number(name: str, text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise click.UsageError(f"the value of `{name}` must be a number, not `{text}`") from None
+        if bar is not None:
+            bar.wipe()
 
 
 def _signal(name: str, text: str) -> Signal:
@@ -182,43 +172,14 @@ def _signal(name: str, text: str) -> Signal:
         return read(Path(text), name)
 
 
-def _write(trajectory: Trajectory, output: Path | None, drawing: Path | None) -> int:
-    try:
-        if output is not None:
+def _write(trajectory: Trajectory, output: Path | None, drawing: Path | None) -> None:
+    if output is not None:
+        with writing():
             trajectory.save(output)
-            say(quiet(f"wrote {output}"))
-        if drawing is not None:
+        say(quiet(f"wrote {output}"))
+    if drawing is not None:
+        from nsode.simulate.plot import left_out
+
+        with writing():
             trajectory.plot(file=drawing)
-            from nsode.simulate.plot import left_out
-
-            say(quiet(f"wrote {drawing}{left_out(trajectory)}"))
-    except OSError as error:
-        complain([io_diagnostic("NS602", error)])
-        return USAGE
-    return 0
-
-
-class _Bar:
-    """How far a run is, on a terminal, once it takes longer than a moment."""
-
-    _AFTER = 0.5  # seconds
-    _WIDTH = 30  # characters
-
-    def __init__(self) -> None:
-        self.begin = time.monotonic()
-        self.shown = False
-
-    def __call__(self, taken: int, steps: int) -> None:
-        passed = time.monotonic() - self.begin
-        if passed < self._AFTER:
-            return
-        self.shown = True
-        share = taken / steps
-        bar = ("#" * round(share * self._WIDTH)).ljust(self._WIDTH)
-        left = passed * (1 - share) / share if share else float("inf")
-        click.echo(f"\r[{bar}] {100 * share:3.0f} %, {left:.0f} s left \033[K", nl=False, err=True)
-
-    def wipe(self) -> None:
-        """Leave the line as it was."""
-        if self.shown:
-            click.echo("\r\033[K", nl=False, err=True)
+        say(quiet(f"wrote {drawing}{left_out(trajectory)}"))

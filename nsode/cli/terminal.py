@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
 from typing import TextIO
 
 import click
@@ -24,7 +27,8 @@ def complain(diagnostics: Sequence[Diagnostic], source: Source | None = None) ->
     """Show diagnostics on standard error."""
     if diagnostics:
         text = render(diagnostics, source, color=paints(sys.stderr))
-        click.echo(text, err=True, color=True)
+        with suppress(OSError):  # there is no other place to complain
+            click.echo(text, err=True, color=True)
 
 
 def bold(text: str) -> str:
@@ -35,6 +39,12 @@ def bold(text: str) -> str:
 def quiet(text: str) -> str:
     """Return ``text`` toned down where standard output is a terminal."""
     return click.style(text, dim=True) if paints(sys.stdout) else text
+
+
+def typed(path: Path) -> str:
+    """Return a path as a person types it into a shell."""
+    text = str(path)
+    return shlex.quote(f"./{text}" if text.startswith("-") else text)
 
 
 def say(text: str = "") -> None:

@@ -1,10 +1,11 @@
 from __future__ import annotations
 
+import errno
 import stat
 
 import pytest
 
-from nsode.files import create, write_all, write_generated
+from nsode.files import create, write_all, write_binary, write_generated
 from support import listing
 
 
@@ -88,3 +89,19 @@ def test_generated_files_replace_each_other_but_nothing_that_a_person_wrote(tmp_
     main.unlink()
     for _ in range(2):
         assert len(write_generated(written, tmp_path)) == 2
+
+
+def test_a_failure_names_the_file_and_not_its_draft(tmp_path):
+    def fail(file):
+        raise OSError(errno.ENOSPC, "no space left on device")
+
+    with pytest.raises(OSError, match="no space") as failure:
+        write_binary(tmp_path / "run.npz", fail)
+    assert failure.value.filename == str(tmp_path / "run.npz")
+    assert listing(tmp_path) == []
+
+
+def test_a_file_in_the_place_of_the_folder_is_no_folder(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(NotADirectoryError, match="no folder"):
+        write_all({"a.c": ""}, tmp_path / "file")
