@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
@@ -16,6 +17,7 @@ import pytest
 from numpy.typing import NDArray
 
 import nsode
+from nsode.backends import emit
 from nsode.diagnostics import ModelError
 from nsode.ode import AugmentedODE, element_names
 from support.generate import model
@@ -29,9 +31,11 @@ from support.twins import Twins
 EPS = np.finfo(float).eps
 SEEDS = int(os.environ.get("NSODE_SEEDS", "15"))
 TEXTS = int(os.environ.get("NSODE_SEEDS", "300"))  # of which every fourth is of twins
+EXACT = int(os.environ.get("NSODE_SEEDS", "80"))  # of texts without libm, three times compiled
 BATCH = 40  # of models in one library
 COMPILERS = ("gcc", "clang")  # by turns
-PLAIN = ("-O0", "-ffp-contract=off")
+CONTRACT = "-ffp-contract=off"
+PLAIN = ("-O0", CONTRACT)
 
 Rates = Callable[[float, NDArray, NDArray, NDArray], NDArray]
 
@@ -169,6 +173,36 @@ def test_random_texts_have_one_right_hand_side(first, tmp_path):
             raise
         states += len(native.x_names)
     assert compared > 3 * states  # of 5 points each: most are no poles
+
+
+ROUNDED = re.compile(r"\b(a?sin|a?cos|a?tan|atan2|[sct]\w+h|exp|log|pow)f?\(")
+
+
+def without_libm(seeds: range) -> list[AugmentedODE]:
+    """Return random models whose C calls nothing that a libm or a compiler may round."""
+    wild = [ode for seed, ode in accepted(seeds) if seed % 4]
+    plain = [ode for ode in wild if not any(map(ROUNDED.search, emit("c", ode).values()))]
+    return plain + [nsode.loads(Twins(seed, libm=False).texts[0]).ode for seed in seeds[::4]]
+
+
+@pytest.mark.parametrize("first", range(0, EXACT, 2 * BATCH))
+def test_compilers_agree_bit_for_bit_on_random_models(first, tmp_path):
+    compilers = {"gcc": ("-O2", CONTRACT), "clang": ("-O1", CONTRACT), "tcc": ()}
+    here = {cc: flags for cc, flags in compilers.items() if have(cc)}
+    if len(here) < 2:
+        pytest.skip("there is one compiler at most")
+    models = without_libm(range(first, min(first + 2 * BATCH, EXACT)))
+    assert len(models) > BATCH // 2 or EXACT % BATCH
+    built = [build_all(models, tmp_path / cc, cc=cc, flags=flags) for cc, flags in here.items()]
+    for ode, *natives in zip(models, *built, strict=True):
+        for t, x, u, p in points(ode, 5):
+            rates, outputs = ({bits(n, f, t, x, u, p) for n in natives} for f in ("rhs", "out"))
+            assert len(rates) == len(outputs) == 1, ode.source.text
+
+
+def bits(native: Native, function: str, *point: float | NDArray) -> bytes:
+    values = getattr(native, function)(*point)
+    return np.where(np.isnan(values), np.nan, values).tobytes()  # a NaN may have either sign
 
 
 def test_a_let_that_is_a_number_divides_as_ieee_says():

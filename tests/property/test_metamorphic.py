@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from random import Random
 
@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 
 import nsode
 from nsode.diagnostics import ModelError
-from nsode.ode import AugmentedODE, element_names
+from nsode.ode import AugmentedODE, Input, Parameter, State, element_names, size
 from support.generate import model
 from support.models import MODELS, PATHS
 from support.modules import load_module
+from support.quantities import Scene
 from support.running import Tracer
 from support.twins import Twins
 
@@ -255,11 +256,15 @@ def in_other_units(text: str) -> str:
     return QUANTITY.sub(converted, text)
 
 
-@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
-def test_the_units_of_the_numbers_do_not_matter(path):
-    text = path.read_text()
-    before, after = Sampled(text), Sampled(in_other_units(text))
-    assert in_other_units(text) != text
+@everywhere
+def test_the_units_of_the_numbers_do_not_matter(subject):
+    if isinstance(subject, Path):
+        text = subject.read_text()
+        changed = in_other_units(text)
+    else:
+        text, changed = Scene(subject).texts
+    assert changed != text
+    before, after = Sampled(text), Sampled(changed)
     for value in ("p0", "u0"):
         expected = getattr(before.module, value)
         np.testing.assert_allclose(getattr(after.module, value), expected, rtol=4 * EPS)
@@ -269,7 +274,74 @@ def test_the_units_of_the_numbers_do_not_matter(path):
         np.testing.assert_array_equal(after.rhs(*point), before.rhs(*point))
 
 
+@pytest.mark.parametrize("seed", range(SEEDS))
+def test_the_system_of_units_does_not_matter(seed):
+    scene, random = Scene(seed), Random(seed)
+    system = [2.0 ** random.randint(-3, 3) for _ in range(3)]  # so that no number is rounded
+    sampled = Sampled(scene.texts[0])
+
+    def scale(items: Sequence[State | Input | Parameter], extra: int = 0) -> NDArray:
+        exponents = [scene.dimension(item.name) for item in items]
+        return np.array([np.prod(np.power(system, e)) for e in exponents]) / system[2] ** extra
+
+    ode = sampled.ode
+    x_scale, u_scale, p_scale = map(scale, (ode.states, ode.inputs, ode.parameters))
+    for t, x, u, p in sampled.points(20):
+        found = sampled.rhs(t * system[2], x * x_scale, u * u_scale, p * p_scale)
+        np.testing.assert_array_equal(found, scale(ode.states, 1) * sampled.rhs(t, x, u, p))
+
+
 # frames
+
+STATE = re.compile(
+    r"^state (\w+)(\[\w+ in [^\]]*\])?(?:\[(\d)\])? += ([^{\n]*?) *(\{.*\})?$", re.MULTILINE
+)
+
+
+def in_another_frame(text: str, random: Random) -> tuple[str, list[int]]:
+    """Return the text with some axes the other way, and the sign of each state's component.
+
+    The state ``p`` is ``p_`` in the other frame, and a ``let`` turns it back for what reads it.
+    """
+    ways: list[int] = []
+    turns: dict[str, str] = {}
+
+    def declared(match: re.Match[str]) -> str:
+        name, family, size, value, unit = (group or "" for group in match.groups())
+        ways.extend(own := random.choices([-1, 1], k=int(size or 1)))
+        turns[name] = turn = _diagonal(own) if size else str(own[0])
+        shape = family + (f"[{size}]" if size else "")
+        element = f"[{family[1:].split()[0]}]" if family else ""
+        return (
+            f"state {name}_{shape} = {turn}*({value}) {unit}\n"
+            f"let {name}{shape} = {turn}*{name}_{element}"
+        )
+
+    def derived(match: re.Match[str]) -> str:
+        name, element = match.groups()
+        return f"({turns[name]}*der({name}_{element}))"
+
+    return re.sub(r"der\((\w+)([^)]*)\)", derived, STATE.sub(declared, text)), ways
+
+
+def _diagonal(entries: list[int]) -> str:
+    columns = range(len(entries))
+    rows = [[entry if k == j else 0 for j in columns] for k, entry in enumerate(entries)]
+    return str(rows)
+
+
+@everywhere
+def test_the_direction_of_axes_does_not_matter(subject):
+    for text, random in subjects(subject):
+        before = Sampled(text)
+        changed, ways = in_another_frame(text, random)
+        after = Sampled(changed)
+        ways += [1] * len(before.ode.auxiliary)
+        sign = np.repeat(ways, [size(state) for state in before.ode.states])
+        np.testing.assert_array_equal(sign * after.module.init(), before.module.init())
+        for t, x, u, p in before.points():
+            found = sign * after.rhs(t, sign * x, u, p)
+            np.testing.assert_array_equal(found, before.rhs(t, x, u, p))
 
 
 def mirrored_blocks(text: str) -> str:

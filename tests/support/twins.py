@@ -18,10 +18,11 @@ Written = Callable[[int | None], str]
 
 @dataclass
 class Twins:
-    """One model as two texts."""
+    """One model as two texts; with ``libm`` off it calls no function that compilers round."""
 
     seed: int
     depth: int = 3
+    libm: bool = True
     family: list[str] = field(default_factory=list)
     elements: list[str] = field(default_factory=list)
     scalars: list[str] = field(default_factory=list)
@@ -138,7 +139,7 @@ class Twins:
             lambda k: f"der({_element('x', k)})", lambda k: f"{plain(k)} + {_element('F', k)}"
         )
         coupling, right, left = (self._expression(1) for _ in range(3))
-        small = lambda k: f"tanh({coupling(k)})"  # noqa: E731
+        small = self._bounded(coupling)
         self._row(
             lambda k: f"(m + 2)*der({_element('y', k)}) + {small(k)}*der({_element('v', k)})",
             lambda k: f"{left(k)} - {_element('N', k)}",
@@ -171,7 +172,7 @@ class Twins:
         kind = self.random.randrange(7)
         a = self._expression(depth - 1, indexed)
         if kind == 0:
-            name = self.random.choice(["sin", "cos", "tanh", "atan", "abs"])
+            name = self.random.choice(["sin", "cos", "tanh", "atan", "abs"]) if self.libm else "abs"
             return lambda k: f"{name}({a(k)})"
         if kind == 1:
             return lambda k: f"(-{a(k)})"
@@ -200,8 +201,12 @@ class Twins:
                 return lambda k: f"mu*{_element('N', k)}"
             case 3 if depth:
                 b = self._nonnegative(depth - 1)
-                return lambda k: f"{b(k)}*exp(tanh({a(k)}))"
+                grown = "exp(tanh({}))" if self.libm else "(1 + abs({}))"
+                return lambda k: f"{b(k)}*{grown.format(a(k))}"
         return lambda k: f"max(0, {a(k)})/(m + 1)"
+
+    def _bounded(self, a: Written) -> Written:
+        return lambda k: f"tanh({a(k)})" if self.libm else f"max(-1, min(1, {a(k)}))"
 
     def _sum(self, body: Written) -> Written:
         def written(k: int | None) -> str:
