@@ -1,8 +1,8 @@
 """Fuzz the compiler: ``python tests/property/fuzz.py --runs 1000000 [--seed S] [--jobs N]``.
 
 Each input is a typed random model, a shipped model or a refused one, whole or damaged by tokens or
-bytes. It is compiled to C. Nothing but a ModelError may come out, no
-warning of Python's, and none may take a second.
+bytes. It is compiled to C. Nothing but a ModelError may come out, no warning of Python's, and none
+may take a second.
 ``--only I`` runs input I of a seed alone and prints it.
 """
 
