@@ -12,7 +12,6 @@ from nsode.inclusion.definitions import Definitions
 from nsode.inclusion.elaborate import condition, elaborate, number
 from nsode.inclusion.elements import Elements, distinct, rename, rename_definition
 from nsode.inclusion.factors import prove_factor, prover_of
-from nsode.inclusion.families import Bounds, ranges
 from nsode.inclusion.fitting import declared_shape, fitted
 from nsode.inclusion.hypotheses import Hypotheses, base_reads
 from nsode.inclusion.indices import index_range
@@ -25,6 +24,7 @@ from nsode.inclusion.settings import Approximations, run
 from nsode.inclusion.sharing import Numbering
 from nsode.inclusion.solving import solve
 from nsode.inclusion.start import broken_assumptions, moving_starts
+from nsode.inclusion.subscripts import Bounds, ranges
 from nsode.inclusion.symbols import Scope, Symbols
 from nsode.inclusion.units import check_units, in_si
 from nsode.inclusion.values import each, scalars, shape, suffixes
@@ -189,9 +189,11 @@ class _Course:
                 match statement:
                     case ast.StateDeclaration():
                         self.declared.initial(statement, scope)
-                    case ast.Assumption(written):
-                        holds = condition(written, scope)
-                        self.checks.append(Check("assume", holds, span=written.span))
+                    case ast.Assumption(written, syntax):
+                        over = index_range(syntax, scope)
+                        holds = condition(written, scope.with_index(over))
+                        self.review.check(holds)
+                        self.checks.append(Check("assume", holds, over, span=written.span))
                     case ast.ApproximateStatement():
                         approximations.add(statement)
                     case ast.SimulateStatement():

@@ -262,7 +262,7 @@ def _call(expr: Call, scope: Scope) -> Value:
             "NS111",
             f"`{expr.function}` has no single value here",
             expr.span,
-            "a constant is needed",
+            "a set-valued term",
             help="set-valued terms stand in equations, `let`, `force` and `output`",
         )
     args = tuple(elaborate(arg, scope) for arg in expr.args)

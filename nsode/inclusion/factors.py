@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
-from nsode.diagnostics import Diagnostic, Label, ModelError
-from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, add, children, negate
+from nsode.expr import Call, Expr, Index, IndexRange, Name, Number, add, negate
+from nsode.inclusion.facts import OPPOSITE, Facts, Goal
+from nsode.inclusion.families import Axes, cases
 from nsode.inclusion.sharing import Numbering
-from nsode.inclusion.signs import Goal, Prover
+from nsode.inclusion.signs import Guard, Prover
+from nsode.inclusion.unproved import unproved
 from nsode.ode import Binding, Check, DifferentialInclusion, Parameter, SetValuedTerm
 from nsode.source import Source
 
@@ -25,32 +26,23 @@ def prover_of(inclusion: DifferentialInclusion, checks: Iterable[Check]) -> Prov
             case SetValuedTerm(kind="dio"):
                 prover.nonnegative.update(item.multiplier)
     for check in checks:
-        _take(prover, check.condition, check.kind == "bound")
+        for condition, over in cases(check.condition, check.range):
+            _take(prover.facts, condition, over)
     return prover
 
 
-def _take(prover: Prover, condition: Expr, bound: bool) -> None:
+def _take(facts: Facts, condition: Expr, over: Axes) -> None:
     match condition:
         case Call("and", (left, right)):
-            _take(prover, left, bound)
-            _take(prover, right, bound)
-        case Call(relation, (Name(id, at) as name, Number(limit))) if bound:
-            goal = _RELATIONS[relation]
-            sign = _sign_beyond(limit, goal)
-            if sign is not None:
-                prover.bounds.setdefault(id, set()).add(sign)
-            if at is None:
-                prover.assume(_difference(name, Number(limit)), goal)
+            _take(facts, left, over)
+            _take(facts, right, over)
         case Call(relation, (left, right)) if relation in _RELATIONS:
             goal = _RELATIONS[relation]
-            prover.assume(_difference(left, right), goal)
-            for side, other, seen in ((left, right, goal), (right, left, _MIRRORED[goal])):
+            facts.add(_difference(left, right), goal, over)
+            for side, other, seen in ((left, right, goal), (right, left, OPPOSITE[goal])):
                 sign = _sign_beyond(other.value, seen) if isinstance(other, Number) else None
                 if sign is not None:
-                    prover.assume(side, sign)
-
-
-_MIRRORED: dict[Goal, Goal] = {">=": "<=", ">": "<", "<=": ">=", "<": ">"}
+                    facts.add(side, sign, over)
 
 
 def _sign_beyond(limit: float, goal: Goal) -> Goal | None:
@@ -88,132 +80,26 @@ def prove_factor(prover: Prover, term: SetValuedTerm, source: Source) -> list[Ch
     factor = term.factor
     if factor is None:
         return []
-    proof = prover.prove(factor, ">=", *_axes(term))
-    if proof is None:
-        raise _unproved(prover, term, factor, source)
+    guards: set[Guard] = set()
+    for case in cases(factor, term.range):
+        proof = prover.prove(case.expr, ">=", case.over)
+        if proof is None:
+            raise unproved(prover, term, case, source)
+        guards |= proof
     watched = Call(">=", (factor, Number(0.0)), span=factor.span)
     reason = f"the factor of `{term.name}`"
     checks = [Check("factor", watched, term.range, reason, span=factor.span)]
-    for name, goal in sorted(proof):
-        if goal == ">=" and (name, ">") in proof:
+    for guard in sorted(guards):
+        if guard.goal == ">=" and guard._replace(goal=">") in guards:
             continue
-        checks.append(_guard(prover.parameters[name], goal, reason, term))
+        checks.append(_checked(prover.parameters[guard.parameter], guard, reason, term))
     return checks
 
 
-def _axes(item: Binding | SetValuedTerm) -> tuple[IndexRange, ...]:
-    return () if item.range is None else (item.range,)
-
-
-def _guard(parameter: Parameter, goal: Goal, reason: str, term: SetValuedTerm) -> Check:
-    at = None if parameter.range is None else Index(parameter.range.variable)
-    condition = Call(goal, (Name(parameter.name, at), Number(0.0)), span=parameter.span)
+def _checked(parameter: Parameter, guard: Guard, reason: str, term: SetValuedTerm) -> Check:
+    at, over = None, parameter.range
+    if over is not None:
+        at, over = Index(over.variable), IndexRange(over.variable, *guard.elements)
+    condition = Call(guard.goal, (Name(parameter.name, at), Number(0.0)), span=parameter.span)
     why = f"{reason} is nonnegative only then"
-    return Check("bound", condition, parameter.range, why, span=term.span)
-
-
-def _unproved(prover: Prover, term: SetValuedTerm, factor: Expr, source: Source) -> ModelError:
-    culprit = _culprit(prover, factor, _axes(term))
-    shown = source.slice(factor.span) or "1"
-    argument = source.slice(term.argument[0].span.to(term.argument[-1].span))
-    labels = [Label(factor.span, "this factor may change sign")]
-    if not factor.span.start <= culprit.part.span.start < factor.span.end:
-        labels.append(Label(culprit.part.span, "because of this"))
-    return ModelError(
-        [
-            Diagnostic(
-                "NS201",
-                f"cannot prove that the factor `{shown}` of `sgn({argument})` is nonnegative",
-                tuple(labels),
-                notes=(_reason(prover, culprit, source),),
-                help=_way_out(prover, culprit, source),
-            )
-        ]
-    )
-
-
-class _Culprit(NamedTuple):
-    """The smallest part that stands in the way of a proof, and what it would have to be."""
-
-    part: Expr
-    wanted: Goal
-    over: tuple[IndexRange, ...]
-
-
-def _culprit(prover: Prover, expr: Expr, over: tuple[IndexRange, ...]) -> _Culprit:
-    found = _Culprit(expr, ">=", over)
-    while (inner := _inner(prover, found)) is not None:
-        found = inner
-    return found
-
-
-def _inner(prover: Prover, culprit: _Culprit) -> _Culprit | None:
-    """Return the part of a part that stands in the way, None where there is no smaller one."""
-    expr, wanted, over = culprit
-    match expr:
-        case Call("+", args) if any(_is_taken_away(arg) for arg in args):
-            return None
-        case Call("+" | "*", args):
-            parts = [(arg, wanted) for arg in args]
-        case If(_, then, otherwise):
-            parts = [(then, wanted), (otherwise, wanted)]
-        case Call("/", (dividend, divisor)):
-            parts = [(dividend, wanted), (divisor, ">")]
-        case Sum(inside, body):
-            return _Culprit(body, wanted, (*over, inside))
-        case Name(id) if id in prover.numbering.bindings:
-            binding = prover.numbering.bindings[id]
-            simple = not children(binding.value)
-            return None if simple else _Culprit(binding.value, wanted, _axes(binding))
-        case _:
-            return None
-    for part, goal in parts:
-        if prover.prove(part, goal, *over) is None:
-            return _Culprit(part, goal, over)
-    return None
-
-
-def _is_taken_away(term: Expr) -> bool:
-    match term:
-        case Call("neg", _):
-            return True
-        case Number(value):
-            return value < 0
-    return False
-
-
-def _reason(prover: Prover, culprit: _Culprit, source: Source) -> str:
-    match culprit.part:
-        case Name(id) if id in prover.parameters:
-            values = prover.parameters[id].values
-            return f"the parameter `{id}` is {min(values, default=0):g}"
-        case Name():
-            return f"nothing bounds `{source.slice(culprit.part.span)}` from below"
-        case Number(value):
-            return f"{value:g} is negative"
-        case Call("+", _):
-            return "a difference may be negative"
-        case Call("neg", _):
-            return "a minus stands in front of it"
-        case Call(function, _) if function.isalpha():
-            return f"`{function}` takes both signs"
-    return "a part of it takes both signs"
-
-
-def _way_out(prover: Prover, culprit: _Culprit, source: Source) -> str:
-    text = source.slice(culprit.part.span)
-    positive = culprit.wanted == ">"
-    match culprit.part:
-        case Name(id) if id in prover.parameters:
-            words = "greater than 0" if positive else "that is not negative"
-            return f"give `{id}` a value {words}"
-        case Name(at=Index()):
-            return f"write `abs({text})` or `max(0, {text})`"
-        case Name() if positive:
-            return f"divide by something positive, or state `assume {text} > 0` if it always holds"
-        case Name():
-            return f"write `abs({text})`, or state `assume {text} >= 0` if it always holds"
-        case Call("+", (left, Call("neg", (right,)))):
-            assumed = f"assume {source.slice(left.span)} >= {source.slice(right.span)}"
-            return f"write `max(0, {text})`, or state `{assumed}` if it always holds"
-    return "write `abs(...)` or `max(0, ...)`, or state `assume ... >= 0` if it always holds"
+    return Check("bound", condition, over, why, span=term.span)

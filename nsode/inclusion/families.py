@@ -1,78 +1,64 @@
-"""Subscripts of families must stay in range."""
+"""Families: what stands under an index, piece by piece, and the elements that it selects."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
-from nsode.diagnostics import ModelError, refuse
-from nsode.expr import Expr, Index, IndexRange, Name, Sum, children
-from nsode.ode import Placed
+from nsode.expr import Expr, Index, IndexRange
 from nsode.passes.split import pieces, settle
 
-
-@dataclass(frozen=True, slots=True)
-class Bounds:
-    """Refuses subscripts outside the range of their family; ``ranges`` has every family."""
-
-    ranges: Mapping[str, IndexRange]
-
-    def check(self, exprs: Iterable[Expr], over: IndexRange | None) -> None:
-        """Check expressions that stand together under one index range.
-
-        An ``if`` on indices alone is decided first: its dead branch may be out of range.
-
-        Raises
-        ------
-        ModelError
-            NS109.
-        """
-        for expr in exprs:
-            if over is None:
-                self._walk(settle(expr), {})
-            elif len(over):
-                for piece, (part,) in pieces(over, expr):
-                    self._walk(part, {piece.variable: piece})
-
-    def _walk(self, expr: Expr, indices: Mapping[str, IndexRange]) -> None:
-        match expr:
-            case Name(id, Index() as at) if id in self.ranges:
-                self._inside(expr, at, self.ranges[id], indices)
-            case Sum(over, body):
-                if len(over):
-                    self._walk(body, {**indices, over.variable: over})
-                return
-        for child in children(expr):
-            self._walk(child, indices)
-
-    def _inside(
-        self, expr: Name, at: Index, family: IndexRange, indices: Mapping[str, IndexRange]
-    ) -> None:
-        if at.variable is None:
-            low = high = at.offset
-        else:
-            over = indices[at.variable]
-            low, high = over.first + at.offset, over.last + at.offset
-        if low < family.first or high > family.last:
-            raise _outside(expr, low if low < family.first else high, family)
+#: The index ranges under which an expression stands.
+Axes = tuple[IndexRange, ...]
+#: The first and the last element of a run; a scalar is its own element 0.
+Elements = tuple[int, int]
 
 
-def _outside(expr: Name, k: int, family: IndexRange) -> ModelError:
-    head = expr.id.partition(".")[0]
-    way_out = "write an element that exists"
-    if expr.at is not None and expr.at.variable is not None:
-        index = expr.at.variable
-        edge = f"> {family.first}" if k < family.first else f"< {family.last}"
-        way_out = f"shorten the range, or write `(if {index} {edge} then ... else ...)`"
-    return refuse(
-        "NS109",
-        f"`{head}[{k}]` does not exist",
-        expr.span,
-        f"`{head}` goes from {family.first} to {family.last}",
-        help=way_out,
-    )
+def elements(at: Index | None, over: Iterable[IndexRange]) -> Elements:
+    """Return the elements that a subscript selects under some index ranges."""
+    if at is None:
+        return 0, 0
+    if at.variable is None:
+        return at.offset, at.offset
+    first, last = next((a.first, a.last) for a in over if a.variable == at.variable)
+    return first + at.offset, last + at.offset
 
 
-def ranges(items: Iterable[Placed]) -> dict[str, IndexRange]:
-    """Return the index range of every family among the items."""
-    return {item.name: item.range for item in items if item.range is not None}
+class Case(NamedTuple):
+    """An expression as it reads over some ranges, without an ``if`` on their indices."""
+
+    expr: Expr
+    over: Axes
+
+
+def cases(expr: Expr, over: IndexRange | None) -> list[Case]:
+    """Return what an expression is, piece by piece of its range."""
+    if over is None:
+        return [Case(settle(expr), ())]
+    return [Case(part, (piece,)) for piece, (part,) in pieces(over, expr)]
+
+
+@dataclass(slots=True)
+class Runs:
+    """A set of elements; runs that touch become one."""
+
+    runs: list[Elements] = field(default_factory=list)
+
+    def add(self, new: Elements) -> None:
+        """Take in a run; one that ends before it begins is empty."""
+        first, last = new
+        if first > last:
+            return
+        start = bisect_left(self.runs, first - 1, key=lambda run: run[1])
+        end = bisect_right(self.runs, last + 1, key=lambda run: run[0])
+        for low, high in self.runs[start:end]:
+            first, last = min(first, low), max(last, high)
+        self.runs[start:end] = [(first, last)]
+
+    def holds(self, wanted: Elements) -> bool:
+        """Tell whether every element of a run is in the set."""
+        first, last = wanted
+        k = bisect_left(self.runs, last, key=lambda run: run[1])
+        return first > last or (k < len(self.runs) and self.runs[k][0] <= first)

@@ -2,38 +2,13 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from nsode.expr import Index, IndexRange
+from nsode.expr import IndexRange
 from nsode.inclusion.coverage import doubled
 from nsode.inclusion.equations import Row, Unknown, state_of
-
-#: The first and the last element of a family; a scalar is its own element 0.
-Elements = tuple[int, int]
-
-
-@dataclass(slots=True)
-class _Covered:
-    """The elements of a family whose derivatives are known, as rising runs."""
-
-    runs: list[Elements] = field(default_factory=list)
-
-    def add(self, new: Elements) -> None:
-        first, last = new
-        if first > last:
-            return
-        start = bisect_left(self.runs, first - 1, key=lambda run: run[1])
-        end = bisect_right(self.runs, last + 1, key=lambda run: run[0])
-        for low, high in self.runs[start:end]:
-            first, last = min(first, low), max(last, high)
-        self.runs[start:end] = [(first, last)]
-
-    def holds(self, wanted: Elements) -> bool:
-        first, last = wanted
-        k = bisect_left(self.runs, last, key=lambda run: run[1])
-        return first > last or (k < len(self.runs) and self.runs[k][0] <= first)
+from nsode.inclusion.families import Elements, Runs, elements
 
 
 @dataclass(slots=True)
@@ -68,7 +43,7 @@ class Matching:
     rows: Sequence[Row]
     open: list[list[Unknown]] = field(init=False)
     said: dict[int, Unknown] = field(default_factory=dict)
-    _covered: dict[str, _Covered] = field(default_factory=dict)
+    _covered: dict[str, Runs] = field(default_factory=dict)
     _readers: dict[str, _Readers] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -77,7 +52,7 @@ class Matching:
             if len(unknowns) > 1:
                 for unknown in unknowns:
                     readers = self._readers.setdefault(state_of(unknown), _Readers())
-                    readers.add(elements(unknown, self.rows[k].range), k)
+                    readers.add(_elements(unknown, self.rows[k].range), k)
 
     def match(self) -> list[list[int]]:
         """Match rows with derivatives.
@@ -103,8 +78,8 @@ class Matching:
             k = ready.pop()
             unknown = self.open[k][0]
             self.said[k] = unknown
-            state, said = state_of(unknown), elements(unknown, self.rows[k].range)
-            self._covered.setdefault(state, _Covered()).add(said)
+            state, said = state_of(unknown), _elements(unknown, self.rows[k].range)
+            self._covered.setdefault(state, Runs()).add(said)
             waiting = self._readers[state].of(said) if state in self._readers else ()
             ready.extend(r for r in waiting if self._drop_known(r, state, k))
 
@@ -124,7 +99,7 @@ class Matching:
         return len(kept) == 1 < before
 
     def _is_covered(self, unknown: Unknown, over: IndexRange | None) -> bool:
-        return self._covered[state_of(unknown)].holds(elements(unknown, over))
+        return self._covered[state_of(unknown)].holds(_elements(unknown, over))
 
     def _peel(self) -> None:
         """Let a row say the derivative that no other open row holds."""
@@ -167,13 +142,6 @@ class Matching:
         return list(groups.values())
 
 
-def elements(unknown: Unknown, over: IndexRange | None) -> Elements:
-    """Return the first and last element that a derivative stands for in its row."""
-    match unknown.at:
-        case None:
-            return 0, 0
-        case Index(None, offset):
-            return offset, offset
-        case Index(_, offset):
-            assert over is not None
-            return over.first + offset, over.last + offset
+def _elements(unknown: Unknown, over: IndexRange | None) -> Elements:
+    """Return the elements of a family whose derivatives a row holds."""
+    return elements(unknown.at, () if over is None else (over,))

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
-from nsode.expr import Expr
+from nsode.expr import Expr, IndexRange
 from nsode.inclusion.equations import Row
-from nsode.inclusion.start import Constants
+from nsode.inclusion.known import Constants
 from nsode.inclusion.values import is_zero
 from nsode.ode import LinearSolve
+
+#: Parameters that a message shows.
+_SHOWN = 4
 
 
 def check_regular(system: LinearSolve, known: Constants, group: Sequence[Row]) -> None:
@@ -48,17 +51,52 @@ def _check_structure(matrix: tuple[tuple[Expr, ...], ...], group: Sequence[Row])
 
 def _check_rank(system: LinearSolve, known: Constants, group: Sequence[Row]) -> None:
     """Refuse a matrix of parameters alone that is singular at their values."""
-    numbers = [known.of_all(row) for row in system.matrix]
-    rows = [row for row in numbers if row is not None]
-    if len(rows) == len(numbers) and _is_singular(rows):
-        places = {row.span for row in group}
-        raise refuse(
-            "NS113",
-            "the mass matrix is singular",
-            group[-1].span,
-            "this row follows from the others" if len(places) > 1 else "its rows are dependent",
-            help="each equation must say something new about the derivatives",
-        )
+    for at in _indices(system.range):
+        rows = _numbers(system, known, at)
+        if rows is None:
+            return
+        if _is_singular(rows):
+            elsewhere = _numbers(system, known.elsewhere(), at)
+            if elsewhere is None or _is_singular(elsewhere):
+                raise _dependent(group)
+            raise _singular_here(group, known.read([e for row in system.matrix for e in row], at))
+
+
+def _indices(over: IndexRange | None) -> Iterator[dict[str, int]]:
+    if over is None:
+        yield {}
+    else:
+        yield from ({over.variable: k} for k in range(over.first, over.last + 1))
+
+
+def _numbers(
+    system: LinearSolve, known: Constants, at: Mapping[str, int]
+) -> list[list[float]] | None:
+    rows = [known.of_all(row, at) for row in system.matrix]
+    return None if None in rows else [row for row in rows if row is not None]
+
+
+def _dependent(group: Sequence[Row]) -> ModelError:
+    several = len({row.span for row in group}) > 1
+    return refuse(
+        "NS113",
+        "the mass matrix is singular",
+        group[-1].span,
+        "this row follows from the others" if several else "its rows are dependent",
+        help="each equation must say something new about the derivatives",
+    )
+
+
+def _singular_here(group: Sequence[Row], read: Mapping[str, float]) -> ModelError:
+    values = ", ".join(f"`{name}` = {value:g}" for name, value in list(read.items())[:_SHOWN])
+    more = ", ..." if len(read) > _SHOWN else ""
+    return refuse(
+        "NS113",
+        f"the mass matrix is singular where {values}{more}",
+        group[-1].span,
+        "at other values of the parameters it would not be",
+        help="check these values, and the entries of the matrix",
+    )
 
 
 def _is_singular(rows: list[list[float]]) -> bool:

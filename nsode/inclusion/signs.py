@@ -8,31 +8,33 @@ just these can be guarded.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import product
-from typing import Literal
+from typing import NamedTuple
 
 from nsode.evaluate import evaluate
-from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum, names, walk
+from nsode.expr import Call, Expr, If, Index, Name, Number, Sum, names, walk
+from nsode.inclusion.facts import OPPOSITE, Facts, Goal
+from nsode.inclusion.families import Axes, Case, Elements, cases, elements
 from nsode.inclusion.order import deepest_first
-from nsode.inclusion.sharing import ONE, Numbering
-from nsode.ode import Binding, Parameter
+from nsode.inclusion.sharing import Numbering
+from nsode.ode import Parameter
 
-Goal = Literal[">=", ">", "<=", "<"]
-Guard = tuple[str, Goal]
+
+class Guard(NamedTuple):
+    """The sign that some elements of a parameter lend to a proof."""
+
+    parameter: str
+    goal: Goal
+    elements: Elements
+
+
 Proof = frozenset[Guard]
 
 _NOTHING: Proof = frozenset()
-_OPPOSITE: dict[Goal, Goal] = {">=": "<=", ">": "<", "<=": ">=", "<": ">"}
 _WEAK: dict[Goal, Goal] = {">=": ">=", ">": ">=", "<=": "<=", "<": "<="}
-_IMPLIES: dict[Goal, tuple[Goal, ...]] = {
-    ">=": (">=", ">"),
-    ">": (">",),
-    "<=": ("<=", "<"),
-    "<": ("<",),
-}
 _POSITIVE = {"exp", "cosh"}
 _NONNEGATIVE = {"abs", "norm", "sqrt", "acos"}
 _ODD = {"sinh", "tanh", "atan", "asin"}
@@ -42,37 +44,42 @@ _ODD = {"sinh", "tanh", "atan", "asin"}
 class Prover:
     """Proves signs over the bindings of one model.
 
-    ``facts`` maps the number of a value (see :class:`Numbering`) to what was assumed of
-    it, ``bounds`` a name to what was declared; ``nonnegative`` are dio's multipliers.
+    ``facts`` are bounds and assumptions, which checks guard elsewhere; ``nonnegative`` are
+    dio's multipliers.
     """
 
     numbering: Numbering
     parameters: Mapping[str, Parameter]
-    facts: dict[int, set[Goal]] = field(default_factory=dict)
-    bounds: dict[str, set[Goal]] = field(default_factory=dict)
+    facts: Facts = field(init=False)
     nonnegative: set[str] = field(default_factory=set)
     _known: dict[str, dict[Goal, Proof | None]] = field(default_factory=dict)
     _seen: dict[tuple[int, Goal], tuple[Expr, Proof | None]] = field(default_factory=dict)
-    _indices: dict[str, IndexRange] = field(default_factory=dict)
+    _over: Axes = ()
 
-    def assume(self, expr: Expr, goal: Goal) -> None:
-        """Take ``expr goal 0`` for granted; a check guards it elsewhere."""
-        scale, id = self.numbering.number(expr, {})
-        if scale and id != ONE:
-            self.facts.setdefault(id, set()).add(goal if scale > 0 else _OPPOSITE[goal])
+    def __post_init__(self) -> None:
+        self.facts = Facts(self.numbering)
 
-    def prove(self, expr: Expr, goal: Goal, *over: IndexRange) -> Proof | None:
+    def prove(self, expr: Expr, goal: Goal, over: Axes = ()) -> Proof | None:
         """Return the guards under which ``expr goal 0`` holds, None without a proof.
 
         ``over`` are the index ranges under which the expression stands.
         """
         bindings = self.numbering.bindings
         for name in deepest_first(self._bound(expr), self._below, self._known):
-            binding = bindings[name]
-            with self._within(*_axes(binding)):
-                self._known[name] = {g: self._prove(binding.value, g) for g in _OPPOSITE}
-        with self._within(*over):
+            parts = cases(bindings[name].value, bindings[name].range)
+            self._known[name] = {g: self._prove_cases(parts, g) for g in OPPOSITE}
+        with self._within(over):
             return self._prove(expr, goal)
+
+    def _prove_cases(self, parts: Sequence[Case], goal: Goal) -> Proof | None:
+        guards = _NOTHING
+        for part, over in parts:
+            with self._within(over):
+                proof = self._prove(part, goal)
+            if proof is None:
+                return None
+            guards |= proof
+        return guards
 
     def _bound(self, expr: Expr) -> Iterator[str]:
         return (name.id for name in names(expr) if name.id in self.numbering.bindings)
@@ -81,48 +88,43 @@ class Prover:
         return self._bound(self.numbering.bindings[name].value)
 
     @contextmanager
-    def _within(self, *over: IndexRange) -> Iterator[None]:
-        outside = self._indices
-        self._indices = {**outside, **{axis.variable: axis for axis in over}}
+    def _within(self, over: Axes) -> Iterator[None]:
+        if not over:
+            yield
+            return
+        outside = self._over, self._seen
+        self._over, self._seen = (*self._over, *over), {}
         try:
             yield
         finally:
-            self._indices = outside
+            self._over, self._seen = outside
 
     def _prove(self, expr: Expr, goal: Goal) -> Proof | None:
         key = (id(expr), goal)
         if key not in self._seen:
-            proof = self._assumed(expr, goal)
-            if proof is None:
-                proof = self._structure(expr, goal)
+            assumed = self.facts.tell(expr, goal, self._over)
+            proof = _NOTHING if assumed else self._structure(expr, goal)
             self._seen[key] = expr, proof  # the expression lives on, so that its id stays its own
         return self._seen[key][1]
-
-    def _assumed(self, expr: Expr, goal: Goal) -> Proof | None:
-        if not self.facts or isinstance(expr, Number):
-            return None
-        scale, id = self.numbering.number(expr, {})
-        wanted = goal if scale > 0 else _OPPOSITE[goal]
-        known = self.facts.get(id, set())
-        return _NOTHING if scale and any(g in known for g in _IMPLIES[wanted]) else None
 
     def _structure(self, expr: Expr, goal: Goal) -> Proof | None:
         match expr:
             case Number(value):
-                return _NOTHING if _holds(value, goal) else None
+                return _NOTHING if holds(value, goal) else None
             case Name():
                 return self._name(expr, goal)
             case Index():
-                return _NOTHING if all(_holds(end, goal) for end in self._ends(expr)) else None
+                ends = elements(expr, self._over)
+                return _NOTHING if all(holds(end, goal) for end in ends) else None
             case Sum(over, body) if goal in {">=", "<="}:
-                with self._within(over):
+                with self._within((over,)):
                     return self._prove(body, goal)
             case If(_, then, otherwise):
                 return self._all((then, goal), (otherwise, goal))
             case Call("neg", (inner,)):
-                return self._prove(inner, _OPPOSITE[goal])
+                return self._prove(inner, OPPOSITE[goal])
             case Call("+", _) if all(map(_is_affine, walk(expr))):
-                return _NOTHING if all(_holds(end, goal) for end in self._extremes(expr)) else None
+                return _NOTHING if all(holds(end, goal) for end in self._extremes(expr)) else None
             case Call("+", terms):
                 return self._sum(terms, goal)
             case Call("*" | "/", (left, right)):
@@ -138,27 +140,20 @@ class Prover:
     def _name(self, expr: Name, goal: Goal) -> Proof | None:
         if expr.id in self.nonnegative:
             return _NOTHING if goal == ">=" else None
-        if any(known in self.bounds.get(expr.id, ()) for known in _IMPLIES[goal]):
-            return _NOTHING
         parameter = self.parameters.get(expr.id)
         if parameter is not None:
-            held = all(_holds(value, goal) for value in parameter.values)
-            return frozenset({(expr.id, goal)}) if held and parameter.values else None
+            lent = Guard(expr.id, goal, elements(expr.at, self._over))
+            held = all(holds(value, goal) for _, value in values_at(parameter, lent.elements))
+            return frozenset({lent}) if held else None
         return self._known[expr.id][goal] if expr.id in self._known else None
-
-    def _ends(self, index: Index) -> tuple[int, ...]:
-        if index.variable is None:
-            return (index.offset,)
-        over = self._indices[index.variable]
-        return (over.first + index.offset, over.last + index.offset) if len(over) else ()
 
     def _extremes(self, expr: Expr) -> Iterator[float]:
         """Yield a value that is linear in the indices at each corner of their ranges."""
         read = {n.variable for n in walk(expr) if isinstance(n, Index) and n.variable is not None}
-        axes = [self._indices[variable] for variable in sorted(read)]
-        if all(map(len, axes)):
-            for corner in product(*((over.first, over.last) for over in axes)):
-                yield evaluate(expr, _no_name, dict(zip(sorted(read), corner, strict=True)))
+        axes = [axis for axis in self._over if axis.variable in read]
+        for corner in product(*((axis.first, axis.last) for axis in axes)):
+            at = {axis.variable: k for axis, k in zip(axes, corner, strict=True)}
+            yield evaluate(expr, _no_name, at)
 
     def _all(self, *goals: tuple[Expr, Goal]) -> Proof | None:
         guards = _NOTHING
@@ -233,7 +228,15 @@ class Prover:
 _STRICT: tuple[Goal, Goal] = (">", "<")
 
 
-def _holds(value: float, goal: Goal) -> bool:
+def values_at(parameter: Parameter, read: Elements) -> Iterator[tuple[int, float]]:
+    """Yield the index and the value of some elements of a parameter."""
+    offset = 0 if parameter.range is None else parameter.range.first
+    for k in range(read[0], read[1] + 1):
+        yield k, parameter.values[k - offset]
+
+
+def holds(value: float, goal: Goal) -> bool:
+    """Tell whether a number has a sign."""
     match goal:
         case ">=":
             return value >= 0
@@ -256,7 +259,3 @@ def _is_affine(expr: Expr) -> bool:
 
 def _no_name(name: str, at: int | None) -> float:
     raise AssertionError(name)
-
-
-def _axes(binding: Binding) -> tuple[IndexRange, ...]:
-    return () if binding.range is None else (binding.range,)

@@ -31,9 +31,9 @@ from nsode.inclusion.equations import (
     state_of,
 )
 from nsode.inclusion.fitting import choose_until
+from nsode.inclusion.known import Constants
 from nsode.inclusion.matching import Matching
 from nsode.inclusion.regular import check_regular
-from nsode.inclusion.start import Constants
 from nsode.inclusion.values import is_zero, total
 from nsode.ode import Binding, LinearSolve, Parameter, Rate, State
 

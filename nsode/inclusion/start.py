@@ -1,52 +1,16 @@
-"""What is known before a run begins, since it rests on parameters alone."""
+"""What can be said before a run begins, since it rests on parameters alone."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 from nsode.diagnostics import Diagnostic, Label
-from nsode.evaluate import evaluate
-from nsode.expr import TIME, Expr, Index, Name, Sum, names, walk
+from nsode.expr import TIME, Name, names
 from nsode.inclusion.elaborate import CONSTANTS
-from nsode.inclusion.order import deepest_first
+from nsode.inclusion.families import cases
+from nsode.inclusion.known import Constants
 from nsode.inclusion.symbols import Symbols
-from nsode.ode import Binding, DifferentialInclusion, Parameter
-
-
-@dataclass(slots=True)
-class Constants:
-    """Values of scalars that rest on parameters alone, through lets."""
-
-    bindings: Mapping[str, Binding]
-    values: dict[str, float | None]
-
-    @classmethod
-    def of(cls, parameters: Sequence[Parameter], bindings: Sequence[Binding]) -> Constants:
-        """Return what is known of a model before a run."""
-        values = {p.name: p.values[0] if p.range is None else None for p in parameters}
-        return cls({b.name: b for b in bindings if b.range is None}, values)
-
-    def of_all(self, exprs: Sequence[Expr]) -> list[float] | None:
-        """Return the values of expressions, None unless all are constant."""
-        for name in deepest_first(self._bound(exprs), self._below, self.values):
-            self.values[name] = self._value(self.bindings[name].value)
-        found = [self._value(expr) for expr in exprs]
-        return None if None in found else [value for value in found if value is not None]
-
-    def _bound(self, exprs: Sequence[Expr]) -> Iterator[str]:
-        return (n.id for expr in exprs for n in names(expr) if n.id in self.bindings)
-
-    def _below(self, name: str) -> Iterator[str]:
-        return self._bound([self.bindings[name].value])
-
-    def _value(self, expr: Expr) -> float | None:
-        for node in walk(expr):
-            if isinstance(node, Index | Sum) or (
-                isinstance(node, Name) and self.values.get(node.id) is None
-            ):
-                return None
-        return evaluate(expr, lambda name, at: self.values[name] or 0.0)
+from nsode.ode import Binding, Check, DifferentialInclusion
 
 
 def broken_assumptions(inclusion: DifferentialInclusion) -> Iterator[Diagnostic]:
@@ -54,13 +18,28 @@ def broken_assumptions(inclusion: DifferentialInclusion) -> Iterator[Diagnostic]
     bindings = [item for item in inclusion.bindings if isinstance(item, Binding)]
     known = Constants.of(inclusion.parameters, bindings)
     for check in inclusion.checks:
-        if check.kind == "assume" and known.of_all([check.condition]) == [0.0]:
+        if check.kind == "assume" and (where := _broken(check, known)) is not None:
             yield Diagnostic(
                 "NS307",
                 "the parameters of the model break this assumption",
-                (Label(check.span, "does not hold"),),
+                (Label(check.span, where),),
                 help="change the parameters or the assumption",
             )
+
+
+def _broken(check: Check, known: Constants) -> str | None:
+    """Return where an assumption does not hold, None where it does or nobody knows."""
+    for condition, axes in cases(check.condition, check.range):
+        if not axes and known.of_all([condition]) == [0.0]:
+            return "does not hold"
+        for variable, first, last in axes:
+            for k in range(first, last + 1):
+                found = known.of_all([condition], {variable: k})
+                if found is None:
+                    break
+                if found == [0.0]:
+                    return f"does not hold for `{variable} = {k}`"
+    return None
 
 
 def moving_starts(inclusion: DifferentialInclusion, symbols: Symbols) -> Iterator[Diagnostic]:

@@ -171,9 +171,10 @@ class OutputDeclaration(Statement):
 
 @dataclass(frozen=True, slots=True)
 class Assumption(Statement):
-    """``assume a >= b``."""
+    """``assume a >= b``, or ``for i in 1..n: assume a[i] >= b``."""
 
     condition: Expr
+    range: RangeSyntax | None
 
 
 @dataclass(frozen=True, slots=True)

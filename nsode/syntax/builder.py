@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from lark import Transformer, v_args
@@ -90,7 +91,7 @@ class Builder(Transformer[Any, Any]):
         return ast.OutputDeclaration(declarator, value, _unit(unit), span=self.statement)
 
     def assume(self, condition: Expr) -> ast.Assumption:
-        return ast.Assumption(condition, span=self.statement)
+        return ast.Assumption(condition, None, span=self.statement)
 
     def declarator(
         self,
@@ -127,8 +128,10 @@ class Builder(Transformer[Any, Any]):
     def equation(self, left: Expr, right: Expr) -> ast.Equation:
         return ast.Equation(left, right, None, span=self.statement)
 
-    def family_equation(self, range_: ast.RangeSyntax, equation: ast.Equation) -> ast.Equation:
-        return ast.Equation(equation.left, equation.right, range_, span=self.statement)
+    def for_each(
+        self, range_: ast.RangeSyntax, each: ast.Equation | ast.Assumption
+    ) -> ast.Equation | ast.Assumption:
+        return replace(each, range=range_)
 
     # approximation and run
 

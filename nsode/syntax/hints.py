@@ -110,12 +110,13 @@ def _application(misfit: Misfit) -> str | None:
 
 def _loop(misfit: Misfit) -> str | None:
     if misfit.first.type != "FOR":
-        return None
+        each = misfit.first.type == "ASSUME" and misfit.text in ("for", "in")
+        return "write `for i in 1..n: assume x[i] >= 0`" if each else None
     if misfit.bad is None or misfit.text in ("=", ":", "in"):
         return "write `for i in 1..n: der(x[i]) = v[i]`, all on one line"
-    if misfit.text in STATEMENT_KEYWORDS:
+    if misfit.text in STATEMENT_KEYWORDS and misfit.text != "assume":
         return "a declared family has its range in brackets: `let y[i in 1..n] = 2*i`"
-    return "a `:` stands between the range and the equation" if "COLON" in misfit.accepted else None
+    return "a `:` stands behind the range" if "COLON" in misfit.accepted else None
 
 
 def _range(misfit: Misfit) -> str | None:

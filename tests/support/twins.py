@@ -192,7 +192,7 @@ class Twins:
 
     def _nonnegative(self, depth: int) -> Written:
         a = self._expression(1)
-        match self.random.randrange(5):
+        match self.random.randrange(6):
             case 0:
                 return lambda k: f"mu*abs({a(k)})"
             case 1:
@@ -203,7 +203,19 @@ class Twins:
                 b = self._nonnegative(depth - 1)
                 grown = "exp(tanh({}))" if self.libm else "(1 + abs({}))"
                 return lambda k: f"{b(k)}*{grown.format(a(k))}"
+            case 5:
+                return self._assumed(a)
         return lambda k: f"max(0, {a(k)})/(m + 1)"
+
+    def _assumed(self, a: Written) -> Written:
+        """Write a factor that only an assumption makes nonnegative."""
+
+        def factor(k: int | None) -> str:
+            return f"({_element('y', k)} + {a(k)})"
+
+        self.family.append(f"for i in {self.first}..{self.last}: assume {factor(None)} >= 0")
+        self.elements.extend(f"assume {factor(k)} >= 0" for k in self._range())
+        return factor
 
     def _bounded(self, a: Written) -> Written:
         return lambda k: f"tanh({a(k)})" if self.libm else f"max(-1, min(1, {a(k)}))"

@@ -151,6 +151,7 @@ def test_an_empty_range_is_empty() -> None:
         ([EACH + "v[i]"], "NS109"),
         ([EACH + "1", "output y = x[4]"], "NS109"),
         ([EACH + "1", "assume x[4] > 0"], "NS109"),
+        ([EACH + "1", "for i in 1..n: assume x[i+1] > 0"], "NS109"),
         ([EACH + "sum(j in 1..n: x[j+1])"], "NS109"),
         ([EACH + "x"], "NS105"),
         ([EACH + "sum(j in 1..i: x[j])"], "NS111"),

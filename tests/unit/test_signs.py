@@ -96,6 +96,57 @@ def test_is_not_proved_by_another_assumption(assumption: str, factor: str) -> No
     assert refused(*lines, f"assume {assumption}") == ["NS201"]
 
 
+@pytest.mark.parametrize(
+    ("assumption", "term"),
+    [
+        ("for j in 1..n: assume x[j] >= 0", "T[i in 1..n] = x[i]*sgn(v)"),
+        ("for i in 1..n: assume x[i] >= 0", "T[j in 0..n-1] = x[j+1]*sgn(v)"),
+        ("for i in 0..n-1: assume x[i+1] >= 0", "T[i in 1..n] = x[i]*sgn(v)"),
+        ("for i in 1..n: assume x[i] >= 0", "T = x[2]*sgn(v)"),
+        ("for i in 1..n: assume x[i] >= 0", "T = sum(j in 1..n: x[j])*sgn(v)"),
+        ("for i in 1..n: assume x[i] >= 0", "T[i in 0..n] = (if i > 0 then x[i] else mu)*sgn(v)"),
+        ("for i in 2..n: assume x[i] >= 0", "T[i in 1..n] = (if i > 1 then x[i] else mu)*sgn(v)"),
+        ("for i in 2..n: assume x[i-1] <= x[i]", "T[i in 1..n-1] = (x[i+1] - x[i])*sgn(v)"),
+        ("for i in 1..n: assume w > x[i] and x[i] > 1", "T[i in 2..n] = (w - x[i])/x[1]*sgn(v)"),
+        (
+            "for i in 1..n: assume (if i < n then x[i] else 1) >= 0",
+            "T[i in 1..n-1] = x[i]*sgn(v)",
+        ),
+        (
+            "for i in 1..2: assume x[i] >= 0\nfor i in 3..n: assume x[i] > 0",
+            "T[i in 1..n] = x[i]*sgn(v)",
+        ),
+    ],
+)
+def test_an_assumption_of_a_family_proves_its_elements(assumption: str, term: str) -> None:
+    assert refused(*HEAD, "der(v) = 0", f"force {term}") == ["NS201"]
+    assert refused(*HEAD, "der(v) = 0", f"force {term}", assumption) == []
+
+
+@pytest.mark.parametrize(
+    ("assumption", "term"),
+    [
+        ("for i in 2..n: assume x[i] >= 0", "T[i in 1..n] = x[i]*sgn(v)"),
+        ("for i in 1..n-1: assume x[i+1] >= 0", "T[i in 1..n] = x[i]*sgn(v)"),
+        ("for i in 1..n-1: assume x[i] >= 0", "T[i in 1..n-1] = x[i+1]*sgn(v)"),
+        ("for i in 2..n: assume x[i] >= 0", "T = x[1]*sgn(v)"),
+        ("for i in 1..n: assume x[2] >= 0", "T = x[1]*sgn(v)"),
+        ("for i in 1..0: assume x[i] >= 0", "T[i in 1..n] = x[i]*sgn(v)"),
+        ("for i in 1..n-1: assume x[i] <= x[i+1]", "T[i in 1..n-1] = (x[i] - x[i+1])*sgn(v)"),
+        ("for i in 1..n: assume x[i] >= 0", "T[i in 1..n] = x[i]*k[i]*v*sgn(v)"),
+    ],
+)
+def test_an_assumption_of_a_family_proves_no_more_than_it_says(assumption: str, term: str) -> None:
+    assert refused(*HEAD, "der(v) = 0", f"force {term}", assumption) == ["NS201"]
+
+
+def test_an_element_of_an_unsound_family_may_be_sound() -> None:
+    lines = ("der(v) = -(sum(i in 2..n: mixed[i]) + mixed[3])*sgn(v)",)
+    assert guards(*lines) == {"(mixed[i] >= 0)"}
+    checks = [c for c in compiled(*HEAD, *lines).inclusion.checks if c.kind == "bound"]
+    assert {c.range for c in checks if "nonnegative" in c.reason} == {("i", 2, 3), ("i", 3, 3)}
+
+
 def guards(*lines: str) -> set[str]:
     """Return the bounds that the proof of a factor left behind."""
     model = compiled(*HEAD, *lines)
@@ -149,6 +200,9 @@ def test_bounds_are_kept_in_si() -> None:
         ["parameter a = 1", "assume a > 1"],
         ["parameter a = 1", "let b = 2*a", "assume b < a"],
         ["assume 1 < 0"],
+        ["constant n = 3", "parameter k[i in 1..n] = 2 - i", "for i in 1..n: assume k[i] >= 0"],
+        ["let k[i in 1..3] = 3 - i", "for i in 1..2: assume k[i] > 0 and k[i+1] > 0"],
+        ["for i in 1..3: assume i < 3"],
     ],
 )
 def test_values_that_break_their_own_bounds_are_refused(lines: list[str]) -> None:
@@ -164,6 +218,9 @@ def test_values_that_break_their_own_bounds_are_refused(lines: list[str]) -> Non
         ["input a = 1 >= 0"],
         ["input a >= 0"],
         ["parameter a = 1", "assume a >= 1"],
+        ["parameter k[i in 1..3] = 2 - i", "for i in 1..2: assume k[i] >= 0"],
+        ["let k[i in 1..3] = 3 - i", "for i in 1..2: assume k[i] > k[i+1]"],
+        ["for i in 1..0: assume i < 0"],
         ["state w = 0", "der(w) = 1", "assume w > 5"],
     ],
 )

@@ -272,6 +272,20 @@ def test_a_broken_assumption_stops_the_run_where_it_breaks():
     assert refusal.value.trajectory.t[-1] == pytest.approx(1.0, abs=0.02)
 
 
+def test_an_assumption_is_watched_for_every_element_of_a_family():
+    model = nsode.loads(
+        "model m\nparameter q0[i in 1..3] = [3, 1, 2]\nstate q[i in 1..3] = q0[i]\n"
+        "state v[i in 1..3] = 1\nfor i in 1..3: assume q[i] >= 0\n"
+        "for i in 1..3: der(q[i]) = -1\nfor i in 1..3: der(v[i]) = -q[i]*sgn(v[i])\n"
+        "approximate default sgn: K = 1e3, beta = 4e-2\n"
+    )
+    for start, first in (([3, 1, 2], 1.0), ([3, 2, 1.5], 1.5)):
+        with pytest.raises(RunError) as refusal:
+            model.simulate(2.5, 1e-2, parameters={"q0": start})
+        assert codes(refusal) == ["NS505"]
+        assert refusal.value.trajectory.t[-1] == pytest.approx(first, abs=0.02)
+
+
 def test_a_step_beyond_the_limit_draws_a_warning_and_is_refused_on_demand():
     model = nsode.load(MODELS / "two_blocks_conveyor.di")
     with pytest.warns(RunWarning, match="beyond what rk4 can take"):

@@ -29,6 +29,7 @@ force N[i in 0..n] = dio((if i < n then x[i+1] else 1) - (if i > 0 then x[i] els
 for i in 1..n-1: 2*der(x[i]) = R[1][2]*sgn(s).x - cross([0, 0, 1],
     [1, 2, 3])  # and so on
 assume x >= mod(w, 2)
+for assumed in 1..n: assume x[assumed] > 0 and not x[assumed] < w
 approximate N, F with lugre: K = 1e5 {N/m}, step = 2, at equilibrium
 approximate default sgn: beta = 4e-3
 simulate 4 {s} every 0.01 step 1e-3 {s} method rk4

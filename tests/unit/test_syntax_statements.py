@@ -70,7 +70,8 @@ DER = Call("der", (Name("x"),))
         ("let y[i in 1..n] = 2", ast.LetDeclaration(declarator("y", I_TO_N), TWO, None)),
         ("force F = 2 {N}", ast.ForceDeclaration(declarator("F"), TWO, ast.Unit("N"))),
         ("output d = 2", ast.OutputDeclaration(declarator("d"), TWO, None)),
-        ("assume x >= n", ast.Assumption(Call(">=", (Name("x"), N)))),
+        ("assume x >= n", ast.Assumption(Call(">=", (Name("x"), N)), None)),
+        ("for i in 1..n: assume x >= n", ast.Assumption(Call(">=", (Name("x"), N)), I_TO_N)),
         ("der(x) = 1", ast.Equation(DER, ONE, None)),
         ("for i in 1..n: der(x) = 1", ast.Equation(DER, ONE, I_TO_N)),
         (

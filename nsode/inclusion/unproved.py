@@ -1,0 +1,136 @@
+"""What stands in the way of a proof that chi >= 0, in words, and the way out."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from nsode.diagnostics import Diagnostic, Label, ModelError
+from nsode.expr import Call, Expr, If, Name, Number, Sum, children
+from nsode.inclusion.facts import Goal, indices
+from nsode.inclusion.families import Axes, Case, cases, elements
+from nsode.inclusion.signs import Prover, holds, values_at
+from nsode.ode import SetValuedTerm, element
+from nsode.source import Source
+
+
+def unproved(prover: Prover, term: SetValuedTerm, case: Case, source: Source) -> ModelError:
+    """Return the error for the factor of a term; ``case`` is where its proof fails."""
+    factor, culprit = term.factor, _culprit(prover, case)
+    assert factor is not None
+    shown = source.slice(factor.span) or "1"
+    argument = source.slice(term.argument[0].span.to(term.argument[-1].span))
+    labels = [Label(factor.span, "this factor may change sign")]
+    if not factor.span.start <= culprit.part.span.start < factor.span.end:
+        labels.append(Label(culprit.part.span, "because of this"))
+    return ModelError(
+        [
+            Diagnostic(
+                "NS201",
+                f"cannot prove that the factor `{shown}` of `sgn({argument})` is nonnegative",
+                tuple(labels),
+                notes=(_reason(prover, culprit, source),),
+                help=_way_out(prover, culprit, source),
+            )
+        ]
+    )
+
+
+class _Culprit(NamedTuple):
+    """The smallest part that stands in the way of a proof, and what it would have to be."""
+
+    part: Expr
+    wanted: Goal
+    over: Axes
+
+
+def _culprit(prover: Prover, case: Case) -> _Culprit:
+    found = _Culprit(case.expr, ">=", case.over)
+    while (inner := _inner(prover, found)) is not None:
+        found = inner
+    return found
+
+
+def _inner(prover: Prover, culprit: _Culprit) -> _Culprit | None:
+    """Return the part of a part that stands in the way, None where there is no smaller one."""
+    expr, wanted, over = culprit
+    match expr:
+        case Call("+", args) if any(_is_taken_away(arg) for arg in args):
+            return None
+        case Call("+" | "*", args):
+            parts = [_Culprit(arg, wanted, over) for arg in args]
+        case If(_, then, otherwise):
+            parts = [_Culprit(then, wanted, over), _Culprit(otherwise, wanted, over)]
+        case Call("/", (dividend, divisor)):
+            parts = [_Culprit(dividend, wanted, over), _Culprit(divisor, ">", over)]
+        case Sum(inside, body):
+            parts = [_Culprit(body, wanted, (*over, inside))]
+        case Name(id) if id in prover.numbering.bindings:
+            binding = prover.numbering.bindings[id]
+            if not children(binding.value):
+                return None
+            found = cases(binding.value, binding.range)
+            parts = [_Culprit(case.expr, wanted, case.over) for case in found]
+        case _:
+            return None
+    return next((part for part in parts if prover.prove(*part) is None), None)
+
+
+def _is_taken_away(term: Expr) -> bool:
+    match term:
+        case Call("neg", _):
+            return True
+        case Number(value):
+            return value < 0
+    return False
+
+
+def _reason(prover: Prover, culprit: _Culprit, source: Source) -> str:
+    match culprit.part:
+        case Name(id) as name if id in prover.parameters:
+            shown, value = _broken(prover, name, culprit)
+            return f"the parameter `{shown}` is {value:g}"
+        case Name():
+            return f"nothing bounds `{source.slice(culprit.part.span)}` from below"
+        case Number(value):
+            return f"{value:g} is negative"
+        case Call("+", _):
+            return "a difference may be negative"
+        case Call("neg", _):
+            return "a minus stands in front of it"
+        case Call(function, _) if function.isalpha():
+            return f"`{function}` takes both signs"
+    return "a part of it takes both signs"
+
+
+def _broken(prover: Prover, name: Name, culprit: _Culprit) -> tuple[str, float]:
+    """Return the name of a parameter that has the wrong sign, or of its element, and its value."""
+    parameter = prover.parameters[name.id]
+    values = values_at(parameter, elements(name.at, culprit.over))
+    k, value = next((k, value) for k, value in values if not holds(value, culprit.wanted))
+    return parameter.name if parameter.range is None else element(parameter.name, k), value
+
+
+def _way_out(prover: Prover, culprit: _Culprit, source: Source) -> str:
+    text = source.slice(culprit.part.span)
+    relation = ">" if culprit.wanted == ">" else ">="
+    match culprit.part:
+        case Name(id) as name if id in prover.parameters:
+            words = "greater than 0" if relation == ">" else "that is not negative"
+            return f"give `{_broken(prover, name, culprit)[0]}` a value {words}"
+        case Name():
+            way_out = "divide by something positive" if relation == ">" else f"write `abs({text})`"
+            return _or_assume(way_out, f"{text} {relation} 0", culprit)
+        case Call("+", (left, Call("neg", (right,)))):
+            above = f"{source.slice(left.span)} >= {source.slice(right.span)}"
+            return _or_assume(f"write `max(0, {text})`", above, culprit)
+    return "write `abs(...)` or `max(0, ...)`, or state `assume ... >= 0` if it always holds"
+
+
+def _or_assume(way_out: str, condition: str, culprit: _Culprit) -> str:
+    """Add the assumption that would do; that of a family holds for each index."""
+    read = {index.variable for index in indices(culprit.part)}
+    axes = [axis for axis in culprit.over if axis.variable in read]
+    if len(axes) > 1:
+        return way_out
+    each = "".join(f"for {axis.variable} in {axis.first}..{axis.last}: " for axis in axes)
+    return f"{way_out}, or state `{each}assume {condition}` if it always holds"
