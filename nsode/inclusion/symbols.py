@@ -25,6 +25,18 @@ CALLABLE = (
     | {"der"}
 )
 
+#: What functions of other languages, whose names are near to none or to a wrong one, are here.
+_ELSEWHERE = {
+    "ddt": "der(x)",
+    "hypot": "norm([a, b])",
+    "ln": "log(x)",
+    "log10": "log(x)/log(10)",
+    "pow": "a^b",
+    "sign": "sgn(x)",
+    "signum": "sgn(x)",
+    "sqr": "x^2",
+}
+
 Derivative = Callable[["Call", "Scope"], Value]
 
 Kind = Literal["parameter", "constant", "input", "state", "let", "force", "output", "term"]
@@ -186,6 +198,7 @@ class Scope:
 
 def unknown_function(call: Call) -> ModelError:
     """Return the error for a function that there is not."""
+    ours = _ELSEWHERE.get(call.function)
     return ModelError(
         [
             Diagnostic(
@@ -193,7 +206,7 @@ def unknown_function(call: Call) -> ModelError:
                 f"there is no function `{call.function}`",
                 (Label(call.span, "unknown function"),),
                 notes=("the functions are " + ", ".join(sorted(CALLABLE)),),
-                help=suggest(call.function, CALLABLE),
+                help=f"write `{ours}`" if ours else suggest(call.function, CALLABLE),
             )
         ]
     )

@@ -64,7 +64,23 @@ def functions():
     return ode("functions", states=[State("x", num(0.5))], rates=[Rate("x", x)], outputs=outputs)
 
 
-SCENES = {scene.name: scene for scene in (column(9), functions(), *map(solves, (1, 2, 4)))}
+def pressed():
+    """A start in two phases, both of which read `R`."""
+    text = """
+model pressed
+parameter R = 1
+state z = 0.9*R
+state v = 0
+force N = dio(z - R)
+der(z) = v
+der(v) = N - 9.81
+approximate N: K = 98.1, alpha = 2e-3, beta = 4e-3, at equilibrium
+"""
+    return nsode.loads(text).ode
+
+
+BUILT = (column(9), functions(), pressed(), *map(solves, (1, 2, 4)))
+SCENES = {scene.name: scene for scene in BUILT}
 MODEL_NAMES = {path.stem: path for path in MODELS}
 
 

@@ -71,8 +71,9 @@ def _jacobian(program: Program) -> list[str]:
 
 
 def _start(program: Program) -> list[str]:
-    first, *later = (body(program, phase) for phase in work.start(program) or [[]])
-    return [*first, *chain.from_iterable(map(_block, later))]
+    phases = [body(program, phase) for phase in work.start(program)]
+    blocks = phases if len(phases) == 1 else map(_block, phases)  # they load the same names
+    return [*chain.from_iterable(blocks)]
 
 
 def _steps(program: Program) -> list[str]:
