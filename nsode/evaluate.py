@@ -107,9 +107,7 @@ def _sinh(a: float) -> float:
 
 
 def _mod(a: float, b: float) -> float:
-    if b == 0:
-        return math.nan
-    return a - b * math.floor(_divide(a, b))
+    return math.nan if b == 0 else a % b
 
 
 def _sat(level: float, x: float) -> float:

@@ -158,8 +158,7 @@ def _ieee(function: str, values: list[float]) -> float:
             case "sinh":
                 return float(np.sinh(values[0]))
             case "mod":
-                a, b = map(np.float64, values)
-                return float(a - b * np.floor(a / b))
+                return float(np.mod(*values))
     return apply(function, *values)
 
 

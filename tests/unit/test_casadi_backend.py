@@ -145,10 +145,27 @@ def test_building_leaves_the_settings_of_casadi_alone():
 
 
 @pytest.mark.parametrize(
-    ("a", "b", "expected"), [(-1.5, 2, 0.5), (1.5, -2, -0.5), (5.5, 2, 1.5), (-4, 2, 0)]
+    ("a", "b", "expected"),
+    [
+        (-1.5, 2, 0.5),
+        (1.5, -2, -0.5),
+        (5.5, 2, 1.5),
+        (-4, 2, 0),
+        (1, 0.1, 0.1 - 2.0**-54),  # a little less than ten times: 0.1 is a little more
+        (3, 0, NAN),
+        (-5, INF, INF),
+    ],
 )
 def test_mod_is_floored(a, b, expected):
-    assert value_and_slopes(call("mod", A, B), a, b)[0] == expected
+    np.testing.assert_array_equal(value_and_slopes(call("mod", A, B), a, b)[0], expected)
+
+
+@pytest.mark.parametrize(
+    "zero", [If(call(">", B, 0), A, Number(5.0)), call("min", A, B), call("max", call("neg", B), A)]
+)
+@pytest.mark.parametrize(("given", "turn"), [(0.0, np.pi), (-0.0, -np.pi)])
+def test_a_choice_keeps_the_sign_of_a_zero(zero, given, turn):
+    assert value_and_slopes(call("atan2", zero, -1), given, 1.0)[0] == turn
 
 
 def oscillator() -> AugmentedODE:

@@ -96,10 +96,19 @@ def test_sat_cuts_off_at_its_level(level, x, expected):
 
 
 @pytest.mark.parametrize(
-    ("a", "b", "expected"), [(-1.5, 2, 0.5), (1.5, -2, -0.5), (5.5, 2, 1.5), (-4, 2, 0)]
+    ("a", "b", "expected"),
+    [
+        (-1.5, 2, 0.5),
+        (1.5, -2, -0.5),
+        (5.5, 2, 1.5),
+        (-4, 2, 0),
+        (1, 0.1, 0.1 - 2.0**-54),  # a little less than ten times: 0.1 is a little more
+        (3, 0, NAN),
+        (-5, INF, INF),
+    ],
 )
 def test_mod_is_floored(a, b, expected):
-    assert value(call("mod", Name("a"), Name("b")), a=a, b=b) == expected
+    np.testing.assert_array_equal(value(call("mod", Name("a"), Name("b")), a=a, b=b), expected)
 
 
 @pytest.mark.parametrize(

@@ -26,11 +26,11 @@ def as_written() -> Iterator[None]:
 
 
 def where(condition: ca.SX, value: ca.SX) -> ca.SX:
-    """Return a value where a condition holds and 0 elsewhere."""
+    """Return a value where a condition holds and -0 elsewhere, which adds nothing even to -0."""
     # A single gate; as written it would carry a second one for the zero.
     ca.GlobalOptions.setSimplificationOnTheFly(True)
     try:
-        return ca.if_else(condition, value, 0)
+        return -ca.if_else(condition, -value, 0)
     finally:
         ca.GlobalOptions.setSimplificationOnTheFly(False)
 
@@ -104,7 +104,8 @@ def inside_unit(function: str, x: ca.SX) -> ca.SX:
 
 def modulo(a: ca.SX, b: ca.SX) -> ca.SX:
     """Return ``a`` modulo ``b``, with the sign of ``b``."""
-    return a - b * ca.floor(a / b)
+    rest = ca.fmod(a, b)
+    return rest + where(rest * b < 0, b)
 
 
 def power(base: ca.SX, exponent: float) -> ca.SX:

@@ -29,12 +29,6 @@ def norm(*v):
     return np.sqrt(sum(component * component for component in v))
 '''
 
-_MOD = '''\
-def mod(a, b):
-    """Return a modulo b, with the sign of b."""
-    return a - b * np.floor(np.divide(a, b))
-'''
-
 _ADD = '''\
 def add(*terms):
     """Return a long sum, added from the left."""
@@ -104,7 +98,6 @@ HELPERS = {
     "sat": _SAT.rstrip(),
     "shrink": _SHRINK.rstrip(),
     "norm": _NORM.rstrip(),
-    "mod": _MOD.rstrip(),
     "add": _ADD.rstrip(),
     "indices": _INDICES.rstrip(),
     "total": _TOTAL.rstrip(),

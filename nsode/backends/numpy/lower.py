@@ -56,8 +56,8 @@ _CALLS = {
     **{name: f"np.{name}" for name in ("sqrt", "exp", "log", "sin", "cos", "tan", "abs")},
     **{name: f"np.{name}" for name in ("sinh", "cosh", "tanh")},
     **{name: f"np.arc{name[1:]}" for name in ("asin", "acos", "atan", "atan2")},
-    **{"max": "np.maximum", "min": "np.minimum"},
-    **{name: name for name in ("mod", "norm", "sat", "shrink")},
+    **{"max": "np.maximum", "min": "np.minimum", "mod": "np.mod"},
+    **{name: name for name in ("norm", "sat", "shrink")},
 }
 
 

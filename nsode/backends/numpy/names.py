@@ -14,7 +14,7 @@ from nsode.backends.naming import distinct
 _OWN = {
     *("np", "real", "numpy", "t", "h", "x", "u", "p", "y", "dx", "rhs", "out", "init"),
     *("NX", "NU", "NP", "NY", "x_names", "u_names", "p_names", "y_names", "u0", "p0"),
-    *("sat", "shrink", "norm", "mod", "total", "indices", "solve", "vectors", "flush"),
+    *("sat", "shrink", "norm", "total", "indices", "solve", "vectors", "flush"),
     *("add", "tiny"),
 }
 RESERVED = frozenset({*_OWN, *keyword.kwlist, *keyword.softkwlist, *dir(builtins)})
