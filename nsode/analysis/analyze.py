@@ -15,12 +15,14 @@ from nsode.analysis.minimality import coinciding, unread_states
 from nsode.analysis.outset import UNDEFINED, at_start, places, preload, unknown
 from nsode.analysis.remarks import unresolved, unstable
 from nsode.analysis.result import Analysis, Unstable
-from nsode.analysis.steps import Reachable, reachable, stable_steps
+from nsode.analysis.steps import Method, Reachable, reachable, stable_steps
 from nsode.diagnostics import Diagnostic, Label, ModelError
-from nsode.integrators import REGISTRY, Scheme
+from nsode.integrators import REGISTRY
+from nsode.integrators.splittings import SPLITTINGS
 from nsode.limits import DEFAULT_LIMITS, Limits, either
 from nsode.ode import AugmentedODE, DifferentialInclusion
 
+_ALL: Mapping[str, Method] = {**REGISTRY, **SPLITTINGS}
 _RESONANCE = "a load near {0:.3g} rad/s is amplified while it sticks"
 
 
@@ -30,7 +32,7 @@ def analyze(
     *,
     along: Iterable[Sequence[float]] = (),
     impact_speed: float | None = None,
-    schemes: Mapping[str, Scheme] | None = None,
+    schemes: Mapping[str, Method] | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Analysis:
     """Return what is known of a model before it runs.
@@ -68,7 +70,7 @@ def analyze(
     ]
     why = unknown(scene)
     known = why is None
-    steps = stable_steps(visited, REGISTRY if schemes is None else schemes) if known else {}
+    steps = stable_steps(visited, _ALL if schemes is None else schemes) if known else {}
     sticking = frictions(scene, local, mass)
     sets, modes, growing = _modes(visited[0]) if known else (None, (), None)
     return Analysis(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf
 
@@ -10,13 +11,15 @@ from nsode.analysis.mass import feeding
 from nsode.analysis.outset import UNDEFINED, at_start, places, unknown
 from nsode.analysis.remarks import unresolved, unstable
 from nsode.analysis.stability import bound, half_disc
-from nsode.analysis.steps import reachable, stable_steps
+from nsode.analysis.steps import Method, reachable, stable_steps
 from nsode.diagnostics import Diagnostic
 from nsode.integrators import REGISTRY
+from nsode.integrators.splittings import SPLITTINGS, Verlet
 from nsode.ode import DifferentialInclusion
 
-#: States and multipliers beyond which a step is not checked on every compile.
-LARGE = 300
+#: States and multipliers beyond which a step is not checked on every compile; a splitting
+#: wants the eigenvalues of each set at each of many steps.
+LARGE, LARGE_FOR_SPLITTINGS = 300, 60
 #: Active sets beyond which a compile searches among them instead.
 FEW_SETS = 256
 
@@ -61,7 +64,8 @@ def foresee(inclusion: DifferentialInclusion, margin: float = 1.0) -> Foreseen:
     if not inclusion.terms:
         return Foreseen(limit=inf)
     count = places(inclusion)
-    if count > LARGE:
+    method, step = inclusion.run.method or "rk4", inclusion.run.step
+    if count > (LARGE_FOR_SPLITTINGS if method in SPLITTINGS else LARGE):
         many = f"{count:,} states and multipliers are too many to look at before each run"
         return Foreseen(unknown=many)
     scene = Scene(inclusion)
@@ -70,17 +74,18 @@ def foresee(inclusion: DifferentialInclusion, margin: float = 1.0) -> Foreseen:
         return Foreseen(unknown=UNDEFINED)
     local, mass, _ = begin
     found = tuple(feeding(scene, mass))
-    method, step = inclusion.run.method or "rk4", inclusion.run.step
-    if step is None or method not in REGISTRY:
+    schemes: Mapping[str, Method] = {**REGISTRY, **SPLITTINGS}
+    if step is None or method not in schemes:
         return Foreseen(found, inf)
     why = unknown(scene)
     if why is not None:
         return Foreseen(found, unknown=why)
-    scheme = REGISTRY[method]
-    fastest = bound(local, scene.elements, scene.constants)
-    if step * fastest <= margin * half_disc(scheme):
-        limit = half_disc(scheme) / fastest if fastest else inf
-        return Foreseen((*found, *unresolved(scene, mass)), limit)
+    scheme = schemes[method]
+    if not isinstance(scheme, Verlet):
+        fastest = bound(local, scene.elements, scene.constants)
+        if step * fastest <= margin * half_disc(scheme):
+            limit = half_disc(scheme) / fastest if fastest else inf
+            return Foreseen((*found, *unresolved(scene, mass)), limit)
     steps = stable_steps([reachable(scene, local, most=FEW_SETS)], {method: scheme})
     if method not in steps:
         return Foreseen(found, unknown="no active set has finite modes")

@@ -23,7 +23,7 @@ from nsode.integrators import RungeKutta, Scheme
 
 Spectrum = NDArray[np.complex128]
 
-_FASTER = 1.0371  # any factor that no model has between two of its own eigenvalues
+FASTER = 1.0371  # any factor that no model has between two of its own eigenvalues
 _ZERO = 1e-6  # of the largest eigenvalue: what rounding leaves of a zero
 _GROWING = 1e-9  # of its magnitude: what rounding leaves of a real part of zero
 _CLOSEST = 64  # candidates that are looked at exactly
@@ -145,10 +145,15 @@ class Modes:
         moved = np.array([matrix(local, elements, faster, s) for s in sets])
         values, after = np.linalg.eigvals(stack) + 0j, np.linalg.eigvals(moved) + 0j
         values.real[np.abs(values.real) <= _GROWING * np.abs(values)] = 0.0
-        with_it = np.abs(after[:, None, :] - _FASTER * values[:, :, None]).min(axis=2)
+        with_it = np.abs(after[:, None, :] - FASTER * values[:, :, None]).min(axis=2)
         behind = np.abs(after[:, None, :] - values[:, :, None]).min(axis=2)
         present = np.abs(values) > _ZERO * np.abs(values).max(axis=1, keepdims=True)
         return cls(sets, values, (with_it < behind) & present, present)
+
+    def only(self, chosen: NDArray[np.bool_]) -> Modes:
+        """Return the same of fewer sets."""
+        sets = [active for active, taken in zip(self.sets, chosen, strict=True) if taken]
+        return Modes(sets, self.values[chosen], self.added[chosen], self.present[chosen])
 
     def worst(self, scheme: Scheme, own: bool = False) -> Worst | None:
         """Return what limits the step; with ``own``, among the model's own modes."""
@@ -194,7 +199,7 @@ def upper(eigenvalue: complex) -> complex:
     return complex(eigenvalue.real, abs(eigenvalue.imag))
 
 
-def sped_up(given: Constants, by: float = _FASTER) -> Constants:
+def sped_up(given: Constants, by: float = FASTER) -> Constants:
     """Return the constants with which the same element is faster."""
     return Constants(given.stiffness * by**2, given.alpha / by, given.beta / by)
 

@@ -8,14 +8,20 @@ from itertools import islice
 
 import numpy as np
 
+from nsode.analysis import amplification
 from nsode.analysis.local import Constants, Element, Local, Scene
 from nsode.analysis.reach import conflicts
 from nsode.analysis.sets import CONTACT, MOST_SETS, ActiveSet, Family, matrix
 from nsode.analysis.stability import Modes, Worst, bound, half_disc, reach
 from nsode.integrators import Scheme
+from nsode.integrators.splittings import Verlet
+
+#: What a limit can be told of.
+Method = Scheme | Verlet
 
 _ROUNDS = 3
 _EFFORT = 4e7  # tries in a round of the search, times the cube of the size
+_DEARER = 100  # as many matrices are looked at for one set where a method is a splitting
 _NUDGE = 0.99
 
 
@@ -89,6 +95,12 @@ class Reachable:
         """Return the eigenvalues of some sets."""
         return Modes.of(self.local, self.elements, self.constants, sets)
 
+    def worst(self, method: Method, modes: Modes, own: bool = False) -> Worst | None:
+        """Return what limits a method among the modes of some sets, added ones or its own."""
+        if isinstance(method, Verlet):
+            return amplification.worst(self.scene, self.local, self.constants, modes, own)
+        return modes.worst(method, own)
+
 
 def reachable(scene: Scene, local: Local, most: int = MOST_SETS) -> Reachable:
     """Return the active sets of a scene that one state can reach.
@@ -107,7 +119,7 @@ def reachable(scene: Scene, local: Local, most: int = MOST_SETS) -> Reachable:
 
 
 def stable_steps(
-    points: Sequence[Reachable], schemes: Mapping[str, Scheme]
+    points: Sequence[Reachable], schemes: Mapping[str, Method]
 ) -> dict[str, StableStep]:
     """Return the least limit over some points for each method that has one."""
     found: dict[str, StableStep] = {}
@@ -121,14 +133,14 @@ def stable_steps(
 
 
 def _stable_step(
-    place: Reachable, whole: Modes | None, name: str, scheme: Scheme
+    place: Reachable, whole: Modes | None, name: str, scheme: Method
 ) -> StableStep | None:
     modes = whole or _searched(place, scheme)
-    worst, own = modes.worst(scheme), modes.worst(scheme, own=True)
+    worst, own = place.worst(scheme, modes), place.worst(scheme, modes, own=True)
     if worst is None:
         return None
     step, proven = worst.step, whole is not None
-    if not proven and half_disc(scheme) > 0:
+    if not proven and not isinstance(scheme, Verlet) and half_disc(scheme) > 0:
         step = half_disc(scheme) / bound(place.local, place.elements, place.constants)
         proven = True
     return StableStep(
@@ -143,7 +155,7 @@ def _stable_step(
     )
 
 
-def _elasticities(place: Reachable, worst: Worst, scheme: Scheme) -> list[tuple[str, float]]:
+def _elasticities(place: Reachable, worst: Worst, scheme: Method) -> list[tuple[str, float]]:
     """Return how the limit follows each constant, the strongest first, weak ones left out."""
     found: dict[str, float] = {}
     if not 0 < worst.step < np.inf:
@@ -154,9 +166,7 @@ def _elasticities(place: Reachable, worst: Worst, scheme: Scheme) -> list[tuple[
                 replace(c, **{field: getattr(c, field) * _NUDGE}) if e.term.name == term else c
                 for e, c in zip(place.elements, place.constants, strict=True)
             ]
-            values = np.linalg.eigvals(matrix(place.local, place.elements, nudged, worst.active))
-            near = values[np.argmin(np.abs(values - worst.eigenvalue))]
-            step = reach(scheme, complex(near))
+            step = _limit(place, worst, scheme, nudged)
             if not 0 < step < np.inf:  # an elastic contact grows with any less of beta
                 continue
             power = np.log(step / worst.step) / np.log(_NUDGE)
@@ -165,20 +175,32 @@ def _elasticities(place: Reachable, worst: Worst, scheme: Scheme) -> list[tuple[
     return sorted(strong, key=lambda pair: -abs(pair[1]))
 
 
-def _searched(place: Reachable, scheme: Scheme) -> Modes:
+def _limit(place: Reachable, worst: Worst, scheme: Method, constants: Sequence[Constants]) -> float:
+    """Return where the limiting set leaves a method with other constants."""
+    if isinstance(scheme, Verlet):
+        modes = Modes.of(place.local, place.elements, constants, [worst.active])
+        found = amplification.worst(place.scene, place.local, constants, modes)
+        return np.inf if found is None else found.step
+    values = np.linalg.eigvals(matrix(place.local, place.elements, constants, worst.active))
+    near = values[np.argmin(np.abs(values - worst.eigenvalue))]
+    return reach(scheme, complex(near))
+
+
+def _searched(place: Reachable, scheme: Method) -> Modes:
     """Return the sets that a search met: all press, then one change at a time for the worse.
 
     The larger the scene, the fewer changes are tried.
     """
     places = sum(place.local.force.shape)
-    tries = max(2, int(_EFFORT / places**3))
+    dearer = _DEARER if isinstance(scheme, Verlet) else 1
+    tries = max(2, int(_EFFORT / places**3 / dearer))
     best = place.modes(list(_beginnings(place.family)))
-    worst = best.worst(scheme)
+    worst = place.worst(scheme, best)
     for _ in range(_ROUNDS):
         if worst is None:
             break
         modes = place.modes(list(islice(_neighbors(place.family, worst.active), tries)))
-        after = modes.worst(scheme)
+        after = place.worst(scheme, modes)
         if after is None or after.step >= worst.step:
             break
         best, worst = modes, after

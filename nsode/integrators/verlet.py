@@ -24,7 +24,17 @@ from dataclasses import dataclass, field, replace
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.expr import Call, Expr, Index, Name, Number, add, divide, multiply, negate
-from nsode.ode import AugmentedODE, AuxiliaryState, Binding, Definition, Rate, defined, expressions
+from nsode.ode import (
+    AugmentedODE,
+    AuxiliaryState,
+    Binding,
+    Definition,
+    Rate,
+    SetValuedTerm,
+    System,
+    defined,
+    expressions,
+)
 from nsode.passes.prune import reads
 
 #: The size of the step, in the values that :func:`split` returns.
@@ -60,9 +70,6 @@ class Parts:
 def split(ode: AugmentedODE) -> Parts:
     """Return the parts of an ODE, told by what its rates read.
 
-    Velocities are the states whose rates read a force of a set-valued term; so are those
-    that are the rate of a position which their own rate reads: a mass on a spring.
-
     Raises
     ------
     ModelError
@@ -73,7 +80,7 @@ def split(ode: AugmentedODE) -> Parts:
     press = [gains.relaxed(item) for item in contacts]
     slide = [gains.relaxed(item) for item in frictions]
     held = list(_with_long_beta(ode.bindings, frictions, gains))
-    kicked = _kicked(ode)
+    kicked = velocities(ode)
     appended = {item.name for item in ode.auxiliary}
     moved = [rate for rate in ode.rates if rate.state not in kicked | appended]
     return Parts(
@@ -84,30 +91,39 @@ def split(ode: AugmentedODE) -> Parts:
     )
 
 
-def _kicked(ode: AugmentedODE) -> set[str]:
-    """Return the velocities."""
-    appended = {item.name for item in ode.auxiliary}
-    behind = _behind(ode.bindings)
+def velocities(system: System) -> set[str]:
+    """Return the states that a step kicks, of an inclusion or of the ODE made from it.
+
+    They are the states whose rates read a force of a set-valued term, and those that are
+    the rate of a position which their own rate reads: a mass on a spring.
+    """
+    auxiliary = {item.name for item in system.auxiliary} if isinstance(system, AugmentedODE) else ()
+    forces = {name for item in system.bindings for name in _multipliers(item)}.union(auxiliary)
+    behind = _behind(system.bindings)
     rests: dict[str, set[str]] = {}
     moves: dict[str, set[str]] = {}
-    for rate in ode.rates:
+    for rate in system.rates:
         read = (behind.get(name, {name}) for name in reads(rate.value))
         rests.setdefault(rate.state, set()).update(*read)
         if isinstance(rate.value, Name):
             moves.setdefault(rate.value.id, set()).add(rate.state)
-    kicked = {state for state, read in rests.items() if read & appended} - appended
-    for state in ode.states:
+    kicked = {state for state, read in rests.items() if read & forces}.difference(auxiliary)
+    for state in system.states:
         positions = moves.get(state.name, set()) - {state.name} - kicked
         if rests.get(state.name, set()) & positions:
             kicked.add(state.name)
     return kicked
 
 
+def _multipliers(item: Definition) -> tuple[str, ...]:
+    return item.multiplier if isinstance(item, SetValuedTerm) else ()
+
+
 def _behind(bindings: Iterable[Definition]) -> dict[str, set[str]]:
-    """Return the states, inputs and parameters on which each binding rests."""
+    """Return the states, multipliers, inputs and parameters on which each binding rests."""
     behind: dict[str, set[str]] = {}
     for item in bindings:
-        found: set[str] = set()
+        found = set(_multipliers(item))
         for name in reads(*expressions(item)):
             found |= behind.get(name, {name})
         for name in defined(item):

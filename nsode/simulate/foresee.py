@@ -64,9 +64,6 @@ def outlook(
     """
     from nsode.analysis import foresee
 
-    if settings.method in SPLITTINGS:  # no limit is known, and books would see false gains
-        why = f"no stable step of {settings.method} is known"
-        return Outlook((_unchecked(why),) if inclusion.terms else (), False)
     found = foresee(_as_run(inclusion, ode, settings, p), MARGIN)
     remarks = [_of_signs(d) for d in found.diagnostics if d.code in TOLD]
     if inclusion.run.step != settings.step:  # it stands nowhere in the text
@@ -74,7 +71,8 @@ def outlook(
     if found.unknown is not None:
         remarks.append(_unchecked(found.unknown))
     certain = found.limit is not None and settings.step <= MARGIN * found.limit
-    return Outlook(tuple(remarks), not certain)
+    # A splitting integrates the books with errors of another kind, which look like gains.
+    return Outlook(tuple(remarks), not certain and settings.method not in SPLITTINGS)
 
 
 def _of_signs(found: Diagnostic) -> Diagnostic:
