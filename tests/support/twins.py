@@ -208,10 +208,10 @@ class Twins:
         return lambda k: f"max(0, {a(k)})/(m + 1)"
 
     def _assumed(self, a: Written) -> Written:
-        """Write a factor that only an assumption makes nonnegative."""
+        """Write a factor that is never negative, which only an assumption tells."""
 
         def factor(k: int | None) -> str:
-            return f"({_element('y', k)} + {a(k)})"
+            return f"(abs({a(k)}) - {a(k)})"
 
         self.family.append(f"for i in {self.first}..{self.last}: assume {factor(None)} >= 0")
         self.elements.extend(f"assume {factor(k)} >= 0" for k in self._range())
