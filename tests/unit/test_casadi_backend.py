@@ -287,6 +287,23 @@ def test_a_family_has_walls_and_a_jacobian_that_is_sparse():
     assert ca.jacobian(model.dx, model.x).nnz() == 2 * n - 1
 
 
+def test_a_long_column_is_one_graph_that_grows_with_its_length():
+    text = (MODELS / "granular_column.di").read_text()
+
+    def column(n: int) -> AugmentedODE:
+        return nsode.loads(text.replace("n = 10\n", f"n = {n}\n")).ode
+
+    sizes = [functions(column(n)).rhs.n_nodes() for n in (250, 500, 1000)]
+    assert sizes[2] - sizes[1] == 2 * (sizes[1] - sizes[0])
+    long, module = functions(column(1000)), load_module(column(1000))
+    x = long.x0 - 1e-3 * np.arange(len(long.x_names)) % 7e-3
+    expected = module.rhs(0.0, x)
+    np.testing.assert_allclose(dense(long.rhs(0, x, [], long.p0)), expected, rtol=1e-12)
+    assert np.count_nonzero(expected[2000:]) > 100  # the balls press
+    slopes = ca.jacobian(long.dx, long.x)
+    assert slopes.nnz() < 10_000
+
+
 def test_serialized_functions_load_and_compute_the_same(tmp_path, monkeypatch):
     for name, text in emit("casadi", oscillator(), Options(prefix="osc")).items():
         (tmp_path / name).write_text(text, encoding="ascii")
@@ -306,14 +323,16 @@ def test_single_precision_is_refused():
         emit("casadi", oscillator(), Options(real="float"))
 
 
-def test_do_mpc_takes_the_model():
+@pytest.fixture
+def do_mpc():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        pytest.importorskip("do_mpc")
-    from nsode.backends.casadi.handover import do_mpc_model
+        return pytest.importorskip("do_mpc")
 
+
+def test_do_mpc_takes_the_model(do_mpc):
     model = functions(oscillator())
-    made = do_mpc_model(model)
+    made = model.do_mpc()
     assert list(made.x.keys()) == ["x_", "v", "N_e"]
     arguments = [made.x, made.u, made.p, made.tvp]
     rates = ca.Function("rates", arguments, [made._rhs])
@@ -321,12 +340,23 @@ def test_do_mpc_takes_the_model():
     np.testing.assert_array_equal(found, dense(model.rhs(0.3, [1.0, 2.0, 3.0], 0.5, 4.0)))
 
 
+def test_the_sphere_ends_up_rolling_through_do_mpc(do_mpc):
+    model = nsode.load(MODELS / "rolling_sphere.di").casadi()
+    simulator = do_mpc.simulator.Simulator(model.do_mpc())
+    simulator.set_param(t_step=4.0, integration_tool="cvodes", abstol=1e-10, reltol=1e-9)
+    parameters = simulator.get_p_template()
+    parameters.master = ca.DM(model.p0)
+    simulator.set_p_fun(lambda t: parameters)
+    simulator.setup()
+    simulator.x0 = model.x0
+    end = dict(zip(model.x_names, simulator.make_step(None).squeeze(), strict=True))
+    assert end["v.x"] == pytest.approx(5 / 7 * 5.5, abs=1e-6)
+
+
 def test_acados_is_handed_explicit_and_implicit_dynamics(monkeypatch):
     stand_in = SimpleNamespace(AcadosModel=SimpleNamespace)
     monkeypatch.setitem(sys.modules, "acados_template", stand_in)
-    from nsode.backends.casadi.handover import acados_model
-
-    made = acados_model(functions(oscillator()))
+    made = functions(oscillator()).acados()
     assert made.name == "oscillator"
     residual = ca.Function("r", [made.t, made.x, made.xdot, made.u, made.p], [made.f_impl_expr])
     assert not np.any(dense(residual(0, [1, 2, 3], [2.0, -3.5, 0.0], 0.5, 4)))

@@ -1,4 +1,8 @@
-"""Models of tools for optimal control, made from CasADi functions."""
+"""Models of tools for optimal control, made from CasADi functions.
+
+do-mpc is on the package index (``pip install 'nsode[do-mpc]'``). The ``acados_template`` of
+acados is not: it comes with acados itself, so no release of it is tested against.
+"""
 
 from __future__ import annotations
 
@@ -15,10 +19,7 @@ if TYPE_CHECKING:
 
 
 def acados_model(model: CasadiModel) -> AcadosModel:
-    """Return an ``AcadosModel``: explicit and implicit dynamics, parameters, time.
-
-    Set ``ocp.parameter_values = model.p0``.
-    """
+    """See :meth:`CasadiModel.acados`."""
     from acados_template import AcadosModel
 
     made = AcadosModel()
@@ -32,11 +33,7 @@ def acados_model(model: CasadiModel) -> AcadosModel:
 
 
 def do_mpc_model(model: CasadiModel) -> DoMpcModel:
-    """Return a continuous do-mpc model that is set up.
-
-    States, inputs and parameters have their names as Python identifiers (``N.K`` is
-    ``N_K``); a model that reads the time has it as the time-varying parameter ``t``.
-    """
+    """See :meth:`CasadiModel.do_mpc`."""
     from do_mpc.model import Model
 
     made = Model("continuous", "SX")

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     import casadi as ca
+    from acados_template import AcadosModel
+    from do_mpc.model import Model as DoMpcModel
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,3 +64,22 @@ class CasadiModel:
         """
         inputs = {"u": self.u} if self.u_names else {}
         return {"t": self.t, "x": self.x, "p": self.p, "ode": self.dx, **inputs}
+
+    def do_mpc(self) -> DoMpcModel:
+        """Return a continuous do-mpc model that is set up; needs do-mpc.
+
+        States, inputs and parameters have their names as Python identifiers (``N.K`` is
+        ``N_K``); a model that reads the time has it as the time-varying parameter ``t``.
+        """
+        from nsode.backends.casadi.handover import do_mpc_model
+
+        return do_mpc_model(self)
+
+    def acados(self) -> AcadosModel:
+        """Return an ``AcadosModel``: explicit and implicit dynamics; needs acados.
+
+        Set ``ocp.parameter_values = model.p0``.
+        """
+        from nsode.backends.casadi.handover import acados_model
+
+        return acados_model(self)
