@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple, Protocol
 
+from nsode.dimension import Dimension
 from nsode.expr import Expr, IndexRange
 from nsode.source import NOWHERE, Source, Span
 
@@ -114,7 +115,8 @@ class SetValuedTerm:
 
     It stands among the bindings, where its argument and factor are known, and
     defines ``multiplier``: one name for each of the ``r = len(argument)`` components.
-    ``factor`` is chi as the author wrote it, None for dio.
+    ``factor`` is chi as the author wrote it, None for dio. ``dimensions`` are those of the
+    multiplier and of the argument, as far as the units of the model tell.
     """
 
     name: str
@@ -124,6 +126,7 @@ class SetValuedTerm:
     multiplier: tuple[str, ...]
     range: IndexRange | None = None
     approximation: Approximation = Approximation()
+    dimensions: tuple[Dimension | None, Dimension | None] = (None, None)
     span: Span = field(default=NOWHERE, compare=False, kw_only=True)
 
     @property
@@ -183,7 +186,8 @@ class Run:
 class AuxiliaryState:
     """A state that the rewrite appends: (24) for dio, (18a) for sgn.
 
-    ``term`` is the set-valued term that it belongs to, ``replaces`` that term's text.
+    ``term`` is the set-valued term that it belongs to, ``replaces`` that term's text, and
+    ``law`` the law that asks for the state.
     """
 
     name: str
@@ -192,6 +196,8 @@ class AuxiliaryState:
     term: str
     replaces: str
     range: IndexRange | None = None
+    unit: str | None = None
+    law: str = Approximation().law
     span: Span = field(default=NOWHERE, compare=False, kw_only=True)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -55,3 +56,7 @@ class Source:
     def slice(self, span: Span) -> str:
         """Return the text that a span covers."""
         return self.text[span.start : span.end]
+
+    def on_one_line(self, span: Span) -> str:
+        """Return the text that a span covers, without comments and ends of lines."""
+        return " ".join(re.sub(r"#[^\n]*", "", self.slice(span)).split())

@@ -13,11 +13,12 @@ from typing import TypeVar
 
 from nsode import __version__
 from nsode.backends import Options
-from nsode.expr import IndexRange
+from nsode.expr import IndexRange, names
 from nsode.integrators import REGISTRY
 from nsode.ode import (
     AugmentedODE,
     AuxiliaryState,
+    Check,
     Input,
     Output,
     Parameter,
@@ -26,11 +27,16 @@ from nsode.ode import (
     layout,
     size,
 )
+from nsode.source import NOWHERE
 
 SCHEMA_VERSION = 1
 
-#: The paper's equation for the state that a term gets, by the end of its name.
-_EQUATIONS = {"e": "(24)", "a": "(18a)"}
+#: The paper's equation for the state that a law gives a term.
+_EQUATIONS = {
+    ("xiong2013", "e"): "(24)",
+    ("xiong2013", "a"): "(18a)",
+    ("lugre", "a"): "(12)",
+}
 
 Record = dict[str, object]
 _Item = TypeVar("_Item", State, Input, Parameter, Output)
@@ -50,10 +56,7 @@ def describe(ode: AugmentedODE, options: Options) -> Record:
         "parameters": [_parameter(item, slot) for item, slot in _placed(ode.parameters)],
         "outputs": [_output(item, slot) for item, slot in _placed(ode.outputs)],
         "auxiliary_states": [_auxiliary(item) for item in ode.auxiliary],
-        "checks": [
-            {"number": number, "kind": check.kind, "reason": check.reason}
-            for number, check in enumerate(ode.checks)
-        ],
+        "checks": [_check(check, number, ode) for number, check in enumerate(ode.checks)],
         "run": {
             "duration": ode.run.duration,
             "step": ode.run.step,
@@ -126,10 +129,23 @@ def _output(item: Output, slot: Slot) -> Record:
 
 
 def _auxiliary(item: AuxiliaryState) -> Record:
+    element = item.name.removeprefix(f"{item.term}.").partition(".")[0]
     return {
         "name": item.name,
         "term": item.term,
         "replaces": item.replaces,
-        "equation": _EQUATIONS.get(item.name.removeprefix(f"{item.term}.").partition(".")[0]),
+        "law": item.law,
+        "equation": _EQUATIONS.get((item.law, element)),
         "range": _range(item.range),
+    }
+
+
+def _check(item: Check, number: int, ode: AugmentedODE) -> Record:
+    return {
+        "number": number,
+        "kind": item.kind,
+        "names": list(dict.fromkeys(name.id for name in names(item.condition))),
+        "line": None if item.span == NOWHERE else ode.source.position(item.span.start).line,
+        "text": ode.source.on_one_line(item.span),
+        "reason": item.reason,
     }

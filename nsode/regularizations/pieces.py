@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from nsode.expr import Expr, Index, Name
+from nsode.inclusion.units.laws import unit_in
 from nsode.ode import AuxiliaryState, Binding, SetValuedTerm
 from nsode.regularizations import Condition
 
@@ -38,4 +39,15 @@ def force(term: SetValuedTerm, component: int, value: Expr) -> Binding:
 
 def state(term: SetValuedTerm, name: Name, rate: Expr, initial: Expr, text: str) -> AuxiliaryState:
     """Return an auxiliary state of a term, which was written as ``text``."""
-    return AuxiliaryState(name.id, rate, initial, term.name, text, term.range, span=term.span)
+    element = name.id.removeprefix(f"{term.name}.").partition(".")[0]
+    return AuxiliaryState(
+        name.id,
+        rate,
+        initial,
+        term.name,
+        text,
+        term.range,
+        unit_in(term, element),
+        term.approximation.law,
+        span=term.span,
+    )

@@ -7,7 +7,6 @@ the e's, then the a's. The result is the paper's (32).
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -59,7 +58,7 @@ def replace_terms(
     states: list[AuxiliaryState] = []
     for item in inclusion.bindings:
         if isinstance(item, SetValuedTerm) and item.kind == kind:
-            text = _on_one_line(inclusion.source.slice(item.span))
+            text = inclusion.source.on_one_line(item.span)
             replacement = law(item.approximation.law).replace(item, text, velocities.get(item.name))
             bindings.extend(replacement.bindings)
             states.extend(replacement.states)
@@ -68,16 +67,15 @@ def replace_terms(
     return replace(inclusion, bindings=tuple(bindings)), states
 
 
-def _on_one_line(text: str) -> str:
-    return " ".join(re.sub(r"#[^\n]*", "", text).split())
-
-
 def append(system: DifferentialInclusion, auxiliary: Sequence[AuxiliaryState]) -> AugmentedODE:
     """Step 3: append the auxiliary states and their rates."""
     return AugmentedODE(
         system.name,
         system.source,
-        (*system.states, *(State(a.name, a.initial, a.range, span=a.span) for a in auxiliary)),
+        (
+            *system.states,
+            *(State(a.name, a.initial, a.range, a.unit, span=a.span) for a in auxiliary),
+        ),
         system.inputs,
         system.parameters,
         system.bindings,

@@ -12,6 +12,7 @@ from nsode.expr import Call, Expr, Name, Number, names
 from nsode.inclusion.elaborate import CONSTANTS
 from nsode.inclusion.order import loop, order
 from nsode.inclusion.review import in_words
+from nsode.inclusion.units.laws import unit_in
 from nsode.ode import Approximation, Check, DifferentialInclusion, Parameter, SetValuedTerm
 from nsode.regularizations import LAWS, Condition, Constant, law, laws_of
 from nsode.rewrite.fixed import Fixed
@@ -70,7 +71,8 @@ def _usable(inclusion: DifferentialInclusion) -> tuple[list[SetValuedTerm], list
 def _parameter(term: SetValuedTerm, name: str, formula: Expr | None, value: float) -> Parameter:
     read = formula if formula is not None and any(True for _ in names(formula)) else None
     span = term.span if formula is None or formula.span == NOWHERE else formula.span
-    return Parameter(name, (value,), formula=read, constant_of=term.name, span=span)
+    unit = unit_in(term, name.removeprefix(f"{term.name}."))
+    return Parameter(name, (value,), None, unit, read, term.name, span=span)
 
 
 def guards(inclusion: DifferentialInclusion) -> Iterator[Check]:

@@ -51,7 +51,37 @@ def test_a_family_is_one_item_whatever_its_size():
         "name": "N.e", "index": 2000, "size": 1001, "unit": None, "auxiliary": False,
         "range": {"variable": "i", "first": 0, "last": 1000},
     }  # fmt: skip
-    assert told["checks"] == [{"number": 0, "kind": "assume", "reason": ""}]
+    assert told["checks"] == [
+        {"number": 0, "kind": "assume", "names": ["x"], "line": None, "text": "", "reason": ""}
+    ]
+
+
+def test_a_check_names_its_place_and_all_that_it_reads():
+    text = "model m\nparameter b = 2\nparameter c = 1\nassume b >= (  # why\n  c)\nstate v = 1\n"
+    told = described(nsode.loads(f"{text}der(v) = -(b - c)*sgn(v)").ode)["checks"]
+    assert told[0] == {
+        "number": 0, "kind": "assume", "names": ["b", "c"], "line": 4, "text": "b >= ( c)",
+        "reason": "",
+    }  # fmt: skip
+    assert ["sgn1.K"] in [check["names"] for check in told]
+
+
+def test_constants_and_auxiliary_states_have_the_units_of_their_element():
+    places = [*(told := described(nsode.load(SPHERE).ode))["parameters"], *told["states"]]
+    units = {place["name"]: place["unit"] for place in places}
+    assert {name: unit for name, unit in units.items() if name[:2] in ("N.", "F.")} == {
+        "N.K": "N/m", "N.alpha": "s", "N.beta": "s", "N.e": "m",
+        "F.K": "N/m", "F.beta": "s", "F.a.x": "m", "F.a.y": "m",
+    }  # fmt: skip
+    bristles = described(nsode.load(SPHERE).with_law(friction="lugre").ode)["parameters"]
+    assert {p["name"]: p["unit"] for p in bristles}["F.B"] == "kg/s"
+
+
+def test_the_equation_of_an_auxiliary_state_is_that_of_its_law():
+    bristles = described(nsode.load(SPHERE).with_law(friction="lugre").ode)["auxiliary_states"]
+    assert {(a["name"], a["law"], a["equation"]) for a in bristles} == {
+        ("N.e", "xiong2013", "(24)"), ("F.a.x", "lugre", "(12)"), ("F.a.y", "lugre", "(12)")
+    }  # fmt: skip
 
 
 def test_what_is_not_known_is_null():

@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from nsode.dimension import ONE
 from nsode.expr import FUNCTIONS, Call, Expr, If, Index, IndexRange, Name, Number, Sum, add
-from nsode.inclusion.units.dimension import ONE
 from nsode.inclusion.units.inference import Inference
 from nsode.inclusion.units.quantity import CLOCK, UNKNOWN, Quantity
 from nsode.inclusion.units.reading import measure

@@ -10,9 +10,9 @@ import pint
 import pytest
 
 from nsode.diagnostics import ModelError
+from nsode.dimension import BASE, ONE, Dimension, dimension, power
 from nsode.expr import Number, divide
 from nsode.inclusion.units import in_si
-from nsode.inclusion.units.dimension import BASE, ONE, Dimension, dimension, power
 from nsode.inclusion.units.reading import _DERIVED, _PREFIXES, measure
 from nsode.source import Span
 from nsode.syntax.ast import Unit

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from nsode.diagnostics import Diagnostic
+from nsode.dimension import SECOND
 from nsode.expr import TIME, Expr
 from nsode.inclusion.equations import derivative_name
 from nsode.inclusion.units import messages
 from nsode.inclusion.units.declared import Declared, any_unit, declared_units, stated_in_si
-from nsode.inclusion.units.dimension import SECOND
 from nsode.inclusion.units.elements import check_element
 from nsode.inclusion.units.inference import Inference, head
 from nsode.inclusion.units.quantity import CLOCK, UNKNOWN, Quantity, over, times
@@ -82,7 +82,8 @@ class _Check:
                 case Binding():
                     self._binding(item)
                 case SetValuedTerm():
-                    check_element(item, self.declared, self.inference)
+                    found = check_element(item, self.declared, self.inference)
+                    self.declared.elements[item.name] = found
                 case LinearSolve():
                     self._solve(item)
         for rate in inclusion.rates:

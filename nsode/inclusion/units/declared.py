@@ -7,10 +7,20 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple, TypeVar
 
 from nsode.diagnostics import Diagnostic, ModelError
+from nsode.dimension import Dimension
 from nsode.inclusion.units.inference import head
 from nsode.inclusion.units.quantity import Quantity
 from nsode.inclusion.units.reading import measure
-from nsode.ode import Binding, Definition, DifferentialInclusion, Input, Output, Parameter, State
+from nsode.ode import (
+    Binding,
+    Definition,
+    DifferentialInclusion,
+    Input,
+    Output,
+    Parameter,
+    SetValuedTerm,
+    State,
+)
 from nsode.source import Span
 from nsode.syntax import ast
 
@@ -32,9 +42,14 @@ class DeclaredUnit(NamedTuple):
 
 @dataclass(slots=True)
 class Declared:
-    """Every unit of a model; ``settings`` are those of each ``approximate``, by its place."""
+    """Every unit of a model.
+
+    ``settings`` are those of each ``approximate``, by its place; ``elements`` the dimensions
+    of the multiplier and the argument of each set-valued term.
+    """
 
     names: dict[str, DeclaredUnit] = field(default_factory=dict)
+    elements: dict[str, tuple[Dimension | None, Dimension | None]] = field(default_factory=dict)
     settings: dict[Span, Mapping[str, ast.Setting]] = field(default_factory=dict)
     run: list[ast.Setting] = field(default_factory=list)
     unknown: list[Diagnostic] = field(default_factory=list)
@@ -101,6 +116,8 @@ def stated_in_si(inclusion: DifferentialInclusion, declared: Declared) -> Differ
         return replace(item, unit=unit.in_si)
 
     def definition(item: Definition) -> Definition:
+        if isinstance(item, SetValuedTerm):
+            return replace(item, dimensions=declared.elements[item.name])
         if not isinstance(item, Binding) or item.role not in ("let", "force"):
             return item
         unit = declared.of(item.name)

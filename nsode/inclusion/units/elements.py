@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from nsode.diagnostics import Label
+from nsode.dimension import Dimension
 from nsode.inclusion.units import laws, messages
 from nsode.inclusion.units.declared import Declared
 from nsode.inclusion.units.inference import Inference
@@ -23,8 +24,16 @@ class _Given(NamedTuple):
     place: Span
 
 
-def check_element(term: SetValuedTerm, declared: Declared, inference: Inference) -> None:
-    """Check a term and what is given for it; make the unit of its multiplier known."""
+def check_element(
+    term: SetValuedTerm, declared: Declared, inference: Inference
+) -> tuple[Dimension | None, Dimension | None]:
+    """Check a term and what is given for it; make the unit of its multiplier known.
+
+    Returns
+    -------
+    tuple
+        The dimensions of its multiplier and of its argument.
+    """
     values = [inference.of(part) for part in term.argument]
     argument = inference.alike(term.argument, values, "components of one velocity")
     force = _multiplier(term, declared, inference)
@@ -35,6 +44,7 @@ def check_element(term: SetValuedTerm, declared: Declared, inference: Inference)
         inference.known[name] = force
     for item in given:
         _check(item, term, force, argument, inference)
+    return force.rigid, argument.rigid
 
 
 def _multiplier(term: SetValuedTerm, declared: Declared, inference: Inference) -> Quantity:

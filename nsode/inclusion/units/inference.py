@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from nsode.diagnostics import Diagnostic, Label
+from nsode.dimension import ONE
 from nsode.expr import Call, Expr, If, Index, Name, Number, Sum
 from nsode.inclusion.units import messages
-from nsode.inclusion.units.dimension import ONE
 from nsode.inclusion.units.quantity import (
     DIMENSIONLESS,
     FITTING,

@@ -1,4 +1,4 @@
-"""The units of an approximation's constants and targets, from those of its element."""
+"""The units of what approximates an element, from those of the element."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
 
-from nsode.inclusion.units.dimension import ONE, SECOND, Dimension, power, product, quotient
+from nsode.dimension import ONE, SECOND, Dimension, power, product, quotient
 from nsode.ode import SetValuedTerm
 
 
@@ -35,23 +35,31 @@ _TARGETS: _Table = {
     },
 }
 _TIME = _Powers(time=1)
+_GAP = _Powers(argument=1)
+_SLIDING = _Powers(argument=1, time=1)
 _SPRING = _Powers(force=1, argument=-1)
 _DAMPER = _Powers(force=1, argument=-1, time=1)
 _BRISTLE = _Powers(force=1, argument=-1, time=-1)
 _FRICTION = _Powers(force=1, argument=-1)
 _KELVIN_VOIGT = {"dio": {"K": _SPRING, "B": _DAMPER}}
-#: What the constants of each law measure; any other, such as Hunt and Crossley's K,
+#: What the constants and the states of each law measure; any other, such as Hunt and Crossley's K,
 #: whose unit depends on n, is not checked.
 _CONSTANTS: Mapping[str, _Table] = {
     "xiong2013": {
-        "dio": {"K": _SPRING, "alpha": _TIME, "beta": _TIME},
-        "sgn": {"K": _BRISTLE, "beta": _TIME},
+        "dio": {"K": _SPRING, "alpha": _TIME, "beta": _TIME, "e": _GAP},
+        "sgn": {"K": _BRISTLE, "beta": _TIME, "a": _SLIDING},
     },
     "kelvin_voigt": _KELVIN_VOIGT,
     "clipped_kelvin_voigt": _KELVIN_VOIGT,
     "hunt_crossley": {"dio": {"c": _Powers(argument=-1, time=1), "n": _Powers()}},
     "lugre": {
-        "sgn": {"K": _BRISTLE, "B": _FRICTION, "D": _FRICTION, "F0": _Powers(force=1)},
+        "sgn": {
+            "K": _BRISTLE,
+            "B": _FRICTION,
+            "D": _FRICTION,
+            "F0": _Powers(force=1),
+            "a": _SLIDING,
+        },
     },
     "smoothing": {"sgn": {"epsilon": _Powers(argument=1)}},
 }
@@ -63,6 +71,12 @@ def constant(
     """Return the dimension of a constant, None where nothing tells."""
     powers = _powers(term, name)
     return None if powers is None else _combined(powers, force, argument)
+
+
+def unit_in(term: SetValuedTerm, name: str) -> str | None:
+    """Return the unit in SI of a constant or state of a term, None where nothing tells."""
+    found = constant(term, name, *term.dimensions)
+    return None if found is None else str(found)
 
 
 @cache

@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
-from nsode.inclusion.units.dimension import ONE, Dimension, base, product
+from nsode.dimension import ONE, Dimension, base, product
 
 if TYPE_CHECKING:
     import pint

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nsode.diagnostics import Diagnostic, Label
-from nsode.inclusion.units.dimension import ONE, quotient, simple
+from nsode.dimension import ONE, quotient, simple
 from nsode.inclusion.units.quantity import Quantity
 from nsode.source import Span
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from nsode.inclusion.units.dimension import ONE, SECOND, Dimension, inverse, power, product
+from nsode.dimension import ONE, SECOND, Dimension, inverse, power, product
 
 
 class Quantity(NamedTuple):

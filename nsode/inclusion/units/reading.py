@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cache
 
 from nsode.diagnostics import refuse, suggest
-from nsode.inclusion.units.dimension import BASE, ONE, base, power, product
+from nsode.dimension import BASE, ONE, base, power, product
 from nsode.inclusion.units.library import Measure, UnitError, UnknownUnitError, look_up
 from nsode.syntax.ast import Unit
 
