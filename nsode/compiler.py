@@ -15,7 +15,7 @@ from nsode.diagnostics import Diagnostic, ModelError
 from nsode.files import write_generated
 from nsode.inclusion.build import build
 from nsode.limits import DEFAULT_LIMITS, Limits
-from nsode.ode import AugmentedODE, DifferentialInclusion, size
+from nsode.ode import AugmentedODE, DifferentialInclusion, element_names
 from nsode.regularizations import Kind
 from nsode.rewrite import rewrite
 from nsode.rewrite.start import at_start, initial_state
@@ -59,6 +59,26 @@ class Model:
         return self.ode.source
 
     @property
+    def x_names(self) -> tuple[str, ...]:
+        """The names of the states, auxiliary ones last; also the order of ``x0``."""
+        return tuple(element_names(self.ode.states))
+
+    @property
+    def u_names(self) -> tuple[str, ...]:
+        """The names of the inputs."""
+        return tuple(element_names(self.ode.inputs))
+
+    @property
+    def p_names(self) -> tuple[str, ...]:
+        """The names of the parameters, constants of the laws last; the order of ``p0``."""
+        return tuple(element_names(self.ode.parameters))
+
+    @property
+    def y_names(self) -> tuple[str, ...]:
+        """The names of the outputs: the declared ones, then every force."""
+        return tuple(element_names(self.ode.outputs))
+
+    @property
     def x0(self) -> NDArray[np.float64]:
         """The states at the start, shape (NX,), in SI; NaN where a constant is missing."""
         import numpy as np
@@ -83,22 +103,11 @@ class Model:
             NS101 for an unknown name, NS307 for a value that breaks what was proved
             with the old one, NS501 for one that is not finite.
         """
-        from nsode.simulate.parameters import parameters
+        from nsode.simulate.parameters import replaced
 
-        vector = parameters(self.ode, values).tolist()
-        changed = []
-        for parameter in self.ode.parameters:
-            count = size(parameter)
-            mine, vector = tuple(vector[:count]), vector[count:]
-            given = parameter.name in values
-            formula = None if given else parameter.formula
-            changed.append(replace(parameter, values=mine, formula=formula))
-        own = tuple(p for p in changed if p.constant_of is None)
-        return replace(
-            self,
-            inclusion=replace(self.inclusion, parameters=own),
-            ode=replace(self.ode, parameters=tuple(changed)),
-        )
+        ode = replaced(self.ode, values)
+        own = tuple(p for p in ode.parameters if p.constant_of is None)
+        return replace(self, inclusion=replace(self.inclusion, parameters=own), ode=ode)
 
     def with_law(self, *, friction: str | None = None, contact: str | None = None) -> Model:
         """Return the model with other published laws for its friction and contact.
@@ -140,14 +149,23 @@ class Model:
 
         Raises
         ------
-        KeyError
-            If there is no such target.
+        ValueError
+            If there is no such target; the message names all.
         """
         with _without_collector():
             return emit_target(target, self.ode, options)
 
     def compile(self, target: str, folder: str | Path, options: Options = Options()) -> list[Path]:
         """Write the files of a target into ``folder``, all of them or none.
+
+        Parameters
+        ----------
+        target
+            ``c``, ``numpy``, ``casadi``, ``latex`` or ``markdown``.
+        folder
+            Made if need be.
+        options
+            The prefix of names, and whether the C computes in double or float.
 
         Returns
         -------

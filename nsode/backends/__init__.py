@@ -34,8 +34,11 @@ def emit(target: str, ode: AugmentedODE, options: Options = Options()) -> dict[s
 
     Raises
     ------
-    KeyError
-        If there is no such target.
+    ValueError
+        If there is no such target; the message names all.
     """
+    if target not in TARGETS:
+        known = ", ".join(f"`{name}`" for name in TARGETS)
+        raise ValueError(f"there is no target `{target}`: choose from {known}")
     files: dict[str, str] = import_module(TARGETS[target]).emit(ode, options)
     return files

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from itertools import islice
 from numbers import Real
 
 import numpy as np
@@ -48,6 +50,26 @@ def parameters(ode: AugmentedODE, given: Mapping[str, Value]) -> NDArray[np.floa
     if broken:
         raise ModelError(broken, ode.source)
     return vector
+
+
+def replaced(ode: AugmentedODE, given: Mapping[str, Value]) -> AugmentedODE:
+    """Return the ODE with other values of parameters; formulas of these follow.
+
+    Raises
+    ------
+    ModelError
+        As :func:`parameters`.
+    """
+    vector = iter(parameters(ode, given).tolist())
+    changed = (
+        replace(
+            item,
+            values=tuple(islice(vector, size(item))),
+            formula=None if item.name in given else item.formula,
+        )
+        for item in ode.parameters
+    )
+    return replace(ode, parameters=tuple(changed))
 
 
 def states(ode: AugmentedODE, start: NDArray[np.float64], given: Mapping[str, float]) -> None:
@@ -137,14 +159,14 @@ def _finite(name: str, value: object) -> float:
 
 def _unknown(what: str, name: str, known: Iterable[str]) -> Diagnostic:
     distinct = list(dict.fromkeys(known))
-    listed = ", ".join(f"`{other}`" for other in distinct[:12]) or "none"
+    listed = ", ".join(f"`{other}`" for other in distinct[:12])
     more = ", ..." if len(distinct) > 12 else ""
     parts = [other for other in distinct if other.startswith(f"{name}.")]
     whole = f"its components are {', '.join(f'`{part}`' for part in parts)}" if parts else None
     return Diagnostic(
         "NS101",
         f"there is no {what} `{name}`",
-        notes=(f"the {what}s are {listed}{more}",),
+        notes=(f"the {what}s are {listed}{more}" if distinct else f"the model has no {what}",),
         help=whole or suggest(name, distinct),
     )
 

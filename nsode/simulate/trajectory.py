@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 _PART = re.compile(r"(\[-?\d+\])?(\.([xyzw]|\d+))?")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Trajectory:
     """The stored rows of one run; every array has one row for each time.
 
@@ -57,13 +57,13 @@ class Trajectory:
     y: Array
     x_names: tuple[str, ...]
     y_names: tuple[str, ...]
-    psi: Array = field(repr=False)
-    psi_names: tuple[str, ...] = field(repr=False)
-    modes: NDArray[np.int8] = field(repr=False)
-    mode_names: tuple[str, ...] = field(repr=False)
+    psi: Array
+    psi_names: tuple[str, ...]
+    modes: NDArray[np.int8]
+    mode_names: tuple[str, ...]
     forces: tuple[str, ...] = ()
-    units: Mapping[str, str] = field(default_factory=dict, repr=False)
-    meta: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    units: Mapping[str, str] = field(default_factory=dict)
+    meta: Mapping[str, Any] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """Return the number of rows."""
@@ -229,6 +229,13 @@ class Trajectory:
         from nsode.simulate.storage import load
 
         return load(Path(path))
+
+    def __repr__(self) -> str:
+        states, outputs = len(self.x_names), len(self.y_names)
+        return (
+            f"<nsode.Trajectory {self.name}: {len(self):,} rows of "
+            f"{states} states and {outputs} outputs>"
+        )
 
     def __str__(self) -> str:
         from nsode.simulate.display import text
