@@ -138,6 +138,11 @@ def refuse(
     return ModelError([Diagnostic(code, message, (Label(span, label),), help=help)])
 
 
+def quoted(names: Iterable[str]) -> str:
+    """Return names as a message lists them."""
+    return ", ".join(f"`{name}`" for name in names)
+
+
 def suggest(name: str, known: Iterable[str]) -> str | None:
     """Return ``did you mean ...`` for a misspelt name, None where nothing is near."""
     names = list(known)

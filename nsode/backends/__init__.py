@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Literal
 
+from nsode.diagnostics import quoted
 from nsode.ode import AugmentedODE
 
 #: Every target with the module that emits it; a module is imported when it is used.
@@ -38,7 +39,7 @@ def emit(target: str, ode: AugmentedODE, options: Options = Options()) -> dict[s
         If there is no such target; the message names all.
     """
     if target not in TARGETS:
-        known = ", ".join(f"`{name}`" for name in TARGETS)
+        known = quoted(TARGETS)
         raise ValueError(f"there is no target `{target}`: choose from {known}")
     files: dict[str, str] = import_module(TARGETS[target]).emit(ode, options)
     return files

@@ -16,7 +16,7 @@ from nsode.cli.model import with_model
 from nsode.cli.named import named
 from nsode.cli.progress import Bar
 from nsode.cli.terminal import complain, quiet, say
-from nsode.diagnostics import Diagnostic, ModelError
+from nsode.diagnostics import Diagnostic, ModelError, quoted
 
 if TYPE_CHECKING:
     from nsode.compiler import Model
@@ -55,7 +55,7 @@ class Order:
 def _picture(context: click.Context, parameter: click.Parameter, value: str | None) -> str | None:
     if value in (None, _UNNAMED) or Path(str(value)).suffix in _PICTURES:
         return value
-    endings = ", ".join(f"`{ending}`" for ending in _PICTURES)
+    endings = quoted(_PICTURES)
     raise click.BadParameter(f"`{value}` must end in one of {endings}")
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
+from nsode.diagnostics import Diagnostic, Label, ModelError, quoted, refuse, suggest
 from nsode.evaluate import evaluate
 from nsode.expr import Expr, Number, names
 from nsode.inclusion.elaborate import scalar
@@ -77,14 +77,17 @@ class Approximations:
         symbols = self.scope.symbols
         if name.text in symbols.declared and name.text not in symbols.known:
             raise PoisonedError
-        elements = ", ".join(f"`{known}`" for known in self.elements) or "none"
         raise ModelError(
             [
                 Diagnostic(
                     "NS304",
                     f"`{name.text}` is no set-valued term",
                     (Label(name.span, "nothing to approximate"),),
-                    notes=(f"the set-valued terms of this model are {elements}",),
+                    notes=(
+                        f"the set-valued terms of this model are {quoted(self.elements)}"
+                        if self.elements
+                        else "this model has no set-valued term",
+                    ),
                     help=suggest(name.text, self.elements),
                 )
             ]

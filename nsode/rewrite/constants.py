@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
+from nsode.diagnostics import Diagnostic, Label, ModelError, quoted, refuse, suggest
 from nsode.evaluate import apply, evaluate
 from nsode.expr import Call, Expr, Name, Number, names
 from nsode.inclusion.elaborate import CONSTANTS
@@ -105,7 +105,7 @@ def _unknown(
     for name in (name for expr in reading for name in names(expr)):
         owner, _, constant = name.id.rpartition(".")
         if owner in owners and constant in CONSTANTS and name.id not in formulas:
-            listed = ", ".join(f"`{known}`" for known in formulas)
+            listed = quoted(formulas)
             yield Diagnostic(
                 "NS101",
                 f"there is no constant `{name.id}`",
@@ -120,7 +120,7 @@ def _check_settings(term: SetValuedTerm) -> None:
     known = [constant.name for constant in needed(term)]
     for name, value in approximation.constants:
         if name not in known:
-            listed = ", ".join(f"`{constant}`" for constant in known)
+            listed = quoted(known)
             usual = approximation.law == Approximation().law
             raise ModelError(
                 [
@@ -153,7 +153,7 @@ def _check_law(term: SetValuedTerm) -> None:
         term.approximation.span,
         f"`{term.name}` is a `{term.kind}`" if exists else "",
         help=(None if exists else suggest(name, LAWS))
-        or f"the laws for `{term.kind}` are " + ", ".join(f"`{other}`" for other in able),
+        or f"the laws for `{term.kind}` are " + quoted(able),
     )
 
 

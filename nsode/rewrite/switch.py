@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from math import isnan
 
-from nsode.diagnostics import Diagnostic, ModelError, refuse, suggest
+from nsode.diagnostics import Diagnostic, ModelError, quoted, refuse, suggest
 from nsode.expr import Expr, Name, Number, names, rebuild
 from nsode.ode import (
     Approximation,
@@ -57,7 +57,7 @@ def with_laws(
 def _check(kind: Kind, name: str) -> None:
     able = laws_of(kind)
     if name not in able:
-        listed = ", ".join(f"`{other}`" for other in able)
+        listed = quoted(able)
         message = f"`{name}` is no law for `{kind}`"
         hint = suggest(name, able) or f"the laws for `{kind}` are {listed}"
         raise ModelError([Diagnostic("NS306", message, help=hint)])

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from nsode.diagnostics import Diagnostic, ModelError, suggest
+from nsode.diagnostics import Diagnostic, ModelError, quoted, suggest
 from nsode.ode import AugmentedODE, element_names, size
 from nsode.simulate.settings import Settings
 
@@ -57,15 +57,14 @@ def inputs(ode: AugmentedODE, given: Mapping[str, Signal], settings: Settings) -
     given = _spread(names, given)
     for name in given:
         if name not in names:
-            listed = ", ".join(f"`{known}`" for known in names) or "none"
             message, way_out = f"there is no input `{name}`", suggest(name, names)
-            notes = (f"the inputs are {listed}",)
+            notes = (f"the inputs are {quoted(names)}" if names else "the model has no input",)
             raise ModelError([Diagnostic("NS101", message, notes=notes, help=way_out)])
     pairs = zip(names, defaults, strict=True)
     lacking = [name for name, value in pairs if value is None and name not in given]
     if lacking:
         flags = " ".join(f"-u {name}=data.csv" for name in lacking)
-        listed = ", ".join(f"`{name}`" for name in lacking)
+        listed = quoted(lacking)
         way_out = f"give {flags} (or a number), or declare a default: `input {lacking[0]} = 0`"
         raise ModelError([Diagnostic("NS503", f"no value for the input {listed}", help=way_out)])
     constant = np.zeros(max(1, len(names)))
@@ -123,7 +122,7 @@ def _column(path: Path, name: str, first: list[str], headed: bool) -> int:
         return first.index(name, 1)
     if len(first) == 2:
         return 1
-    found = ", ".join(f"`{cell}`" for cell in first[1:9]) if headed else f"{len(first)} columns"
+    found = quoted(first[1:9]) if headed else f"{len(first)} columns"
     way_out = "the first line names the columns: `t,fe`; times stand in the first"
     message = f"`{path}` has no column `{name}`"
     raise ModelError([Diagnostic("NS508", message, notes=(f"it has {found}",), help=way_out)])

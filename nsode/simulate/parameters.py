@@ -11,7 +11,7 @@ from numbers import Real
 import numpy as np
 from numpy.typing import NDArray
 
-from nsode.diagnostics import Diagnostic, Label, ModelError, suggest
+from nsode.diagnostics import Diagnostic, Label, ModelError, quoted, suggest
 from nsode.evaluate import evaluate
 from nsode.expr import Expr, names
 from nsode.ode import AugmentedODE, Check, Parameter, element_names, layout, size
@@ -159,7 +159,7 @@ def _finite(name: str, value: object) -> float:
 
 def _unknown(what: str, name: str, known: Iterable[str]) -> Diagnostic:
     distinct = list(dict.fromkeys(known))
-    listed = ", ".join(f"`{other}`" for other in distinct[:12])
+    listed = quoted(distinct[:12])
     more = ", ..." if len(distinct) > 12 else ""
     parts = [other for other in distinct if other.startswith(f"{name}.")]
     whole = f"its components are {', '.join(f'`{part}`' for part in parts)}" if parts else None
@@ -173,7 +173,7 @@ def _unknown(what: str, name: str, known: Iterable[str]) -> Diagnostic:
 
 def _lacking(names: Sequence[str]) -> Diagnostic:
     flags = " ".join(f"-p {name}=..." for name in names[:8]) + (" ..." if len(names) > 8 else "")
-    listed = ", ".join(f"`{name}`" for name in names[:8]) + (", ..." if len(names) > 8 else "")
+    listed = quoted(names[:8]) + (", ..." if len(names) > 8 else "")
     return Diagnostic(
         "NS503",
         f"{'constants have' if len(names) > 1 else 'a constant has'} no value: {listed}",

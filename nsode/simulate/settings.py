@@ -10,7 +10,7 @@ from numbers import Integral, Real
 import numpy as np
 from numpy.typing import NDArray
 
-from nsode.diagnostics import Diagnostic, Label, ModelError, suggest
+from nsode.diagnostics import Diagnostic, Label, ModelError, quoted, suggest
 from nsode.integrators import REGISTRY
 from nsode.integrators.pairs import PAIRS
 from nsode.integrators.splittings import SPLITTINGS
@@ -175,7 +175,7 @@ def _unknown(method: str, run: Run | None) -> list[Diagnostic]:
             "NS501",
             f"there is no method `{method}`",
             () if run is None else (Label(run.span),),
-            notes=("the methods are " + ", ".join(f"`{name}`" for name in methods()),),
+            notes=("the methods are " + quoted(methods()),),
             help=suggest(method, methods()),
         )
     ]
