@@ -232,10 +232,13 @@ class Model:
         return functions(self.ode, method)
 
     def sympy(self) -> SymbolicSystem:
-        """Return the augmented ODE as SymPy objects; needs sympy."""
+        """Return the augmented ODE as SymPy objects, and W; needs sympy."""
+        from nsode.analysis.formulas import symbolic_mass
         from nsode.backends.sympy import system
 
-        return system(self.ode)
+        found = system(self.ode)
+        names, W = symbolic_mass(self.inclusion, found.symbols)
+        return replace(found, multipliers=names, W=W)
 
     def analyze(
         self,

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib.util import find_spec
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nsode.analysis.local import Scene
-from nsode.analysis.mass import EffectiveMass
-from nsode.expr import Call, Expr, If, Index, Name, Number, Sum
-from nsode.ode import Binding
+from nsode.analysis.mass import EffectiveMass, effective_mass
+from nsode.expr import TIME, Call, Expr, If, Index, Name, Number, Sum
+from nsode.ode import Binding, DifferentialInclusion, LinearSolve, Placed
+
+if TYPE_CHECKING:
+    import sympy
 
 #: More multipliers than these are shown in numbers only.
 MOST = 8
+
+_LONGEST = 200  # operations in an entry that SymPy is asked to simplify
 
 _MATH = {"sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh"}
 
@@ -21,34 +27,67 @@ class _NoFormulaError(Exception):
 
 
 def formulas(scene: Scene, mass: EffectiveMass) -> tuple[tuple[str, ...], ...] | None:
-    """Return W in symbols; None where SymPy is missing, or the scene is large or has kinks."""
-    families = any(term.range for term in scene.inclusion.terms)
-    if not mass.names or len(mass.names) > MOST or families or find_spec("sympy") is None:
+    """Return W as text; None where SymPy is missing, or the scene is large or has kinks."""
+    if len(mass.names) > MOST or find_spec("sympy") is None:
         return None
     import sympy
 
+    placed: list[Placed] = [*scene.inclusion.parameters, *scene.inclusion.states]
+    names = [TIME, *(item.name for item in placed if item.range is None)]
+    found = _matrix(scene, mass, {name: sympy.Symbol(name, real=True) for name in names})
+    return found and tuple(tuple(map(str, found.row(k))) for k in range(found.rows))
+
+
+def symbolic_mass(
+    inclusion: DifferentialInclusion, symbols: Mapping[str, sympy.Basic]
+) -> tuple[tuple[str, ...], sympy.ImmutableMatrix | None]:
+    """Return the names of the multipliers and W in terms of some symbols.
+
+    There is no matrix where the scene has families of terms or its W has kinks.
+    """
+    scene = Scene(inclusion)
+    mass = effective_mass(scene, scene.at(scene.start))
+    return mass.names, _matrix(scene, mass, symbols)
+
+
+def _matrix(
+    scene: Scene, mass: EffectiveMass, symbols: Mapping[str, sympy.Basic]
+) -> sympy.ImmutableMatrix | None:
+    import sympy
+
+    if not mass.names or any(term.range for term in scene.inclusion.terms):
+        return None
     try:
-        return tuple(
-            tuple(str(sympy.factor(entry)) for entry in row) for row in _Symbols(scene).matrix(mass)
-        )
+        rows = _Symbols(scene, symbols).matrix(mass)
     except _NoFormulaError:
         return None
+    return sympy.ImmutableMatrix(rows).applyfunc(_tidy)
+
+
+def _tidy(entry: Any) -> Any:  # noqa: ANN401  SymPy has no types
+    import sympy
+
+    return entry if entry.count_ops() > _LONGEST else sympy.factor(sympy.trigsimp(entry))
 
 
 class _Symbols:
     """Values of definitions as SymPy expressions of parameters and states."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, symbols: Mapping[str, Any]) -> None:
         self.scene = scene
-        self.known: dict[str, Any] = {}
+        self.known = dict(symbols)
         further = (*scene.of_rates.definitions, *scene.of_motions.definitions)
         self.definitions = {
             item.name: item.value
             for item in (*scene.definitions, *further)
             if isinstance(item, Binding) and item.range is None
         }
-        self.plain = {p.name for p in scene.inclusion.parameters if p.range is None}
-        self.plain |= {s.name for s in scene.inclusion.states if s.range is None} | {"t"}
+        self.solves = {
+            unknown: item
+            for item in (*scene.definitions, *further)
+            if isinstance(item, LinearSolve) and item.range is None
+            for unknown in item.unknowns
+        }
 
     def matrix(self, mass: EffectiveMass) -> list[list[Any]]:
         scene, size = self.scene, len(mass.names)
@@ -104,16 +143,20 @@ class _Symbols:
         return sympy.Rational(repr(value))
 
     def _name(self, name: str) -> Any:  # noqa: ANN401
+        if name in self.definitions:
+            self.known[name] = self.value(self.definitions.pop(name))
+        if name in self.solves:
+            self._solve(self.solves.pop(name))
+        if name not in self.known:
+            raise _NoFormulaError
+        return self.known[name]
+
+    def _solve(self, item: LinearSolve) -> None:
         import sympy
 
-        if name not in self.known:
-            if name in self.definitions:
-                self.known[name] = self.value(self.definitions[name])
-            elif name in self.plain:
-                self.known[name] = sympy.Symbol(name, real=True)
-            else:
-                raise _NoFormulaError
-        return self.known[name]
+        matrix = sympy.Matrix([[self.value(entry) for entry in row] for row in item.matrix])
+        right = sympy.Matrix([self.value(entry) for entry in item.right])
+        self.known |= zip(item.unknowns, matrix.LUsolve(right), strict=True)
 
     def _call(self, function: str, args: list[Any]) -> Any:  # noqa: ANN401
         import sympy

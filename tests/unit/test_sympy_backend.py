@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -9,10 +12,12 @@ import nsode
 from nsode.evaluate import apply
 from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum
 from nsode.ode import Binding, LinearSolve, Parameter, Rate, State
+from support.models import MODELS
 from support.odes import Maker, call, ode
 
 sp = pytest.importorskip("sympy")
 
+from nsode.backends.latex.names import symbols as typeset  # noqa: E402
 from nsode.backends.sympy import SymbolicSystem, system  # noqa: E402
 from nsode.backends.sympy.lower import Environment, lower  # noqa: E402
 
@@ -180,11 +185,94 @@ def test_numbers_keep_their_value():
         assert float(symbolic(Number(value))[0]) == value
 
 
-def test_tex_is_that_of_the_latex_backend():
-    found = system(nsode.loads(BALL).ode)
-    assert found.latex(found.rate("v")) == "N - 9.8"
-    assert "e_{N}" in found._repr_latex_()
-    assert r"\beta_{N}" in found.latex(found.rate("N.e"))
+def shown(expression: object) -> str:
+    """Return what a notebook typesets."""
+    return expression._repr_latex_().removeprefix(r"$\displaystyle ").removesuffix("$")
+
+
+SLIDER = """model slider
+parameter mu1 = 0.3
+state p[2] = [0, 0]
+state v[2] = [1, 0]
+state x[i in 1..3] = 0
+force N_floor = dio(p.y)
+force F = mu1*N_floor*sgn(v.x)
+der(p) = v
+der(v) = [-F, N_floor - 9.8]
+for i in 1..3: der(x[i]) = (if i > 1 then x[i-1] else 0) - x[i]
+approximate N_floor: K = 1e5, beta = 0.01, alpha = 0.005
+approximate F: K = 1e5, beta = 0.01
+"""
+
+
+def test_a_notebook_shows_names_as_the_latex_backend_does():
+    model = nsode.loads(SLIDER)
+    found, known = model.sympy(), typeset(model.ode)
+    assert {n: sp.latex(s) for n, s in found.symbols.items()} == {
+        name: str(known[name]) for name in found.symbols
+    }
+    assert shown(found.symbols["mu1"]) == r"\mu_{1}"
+    assert shown(found.symbols["F.beta"] ** 2) == r"\beta_{F}^{2}"
+    assert shown(found.symbols["N_floor.e"]) == r"e_{N_{\mathrm{floor}}}"
+    assert "e_{N_" in shown(found)
+    assert str(found.symbols["F.beta"]) == "F.beta"
+
+
+def test_a_notebook_shows_elements_of_families_with_their_index():
+    x = nsode.loads(SLIDER).sympy().symbols["x"]
+    i = sp.Symbol("i", integer=True)
+    assert shown(x[i + 1]) == "x_{i + 1}"
+    assert shown((x[i] ** 2).subs(i, 3)) == "x_{3}^{2}"
+
+
+def test_what_differs_at_a_wall_is_an_element_of_its_own():
+    found = nsode.loads(SLIDER).sympy()
+    x, i = found.symbols["x"], sp.Symbol("i", integer=True)
+    rates = dict(zip((state for state, _ in found.rates), found.limits, strict=True))
+    assert rates[x[1]] is None
+    assert rates[x[i]] == (i, 2, 3)
+    assert dict(found.rates)[x[1]] == -x[1]
+    assert dict(found.rates)[x[i]] == x[i - 1] - x[i]
+    assert r"\left(x_{i}\right)_{i=2}^{3}" in shown(found)
+
+
+def test_symbols_compute_and_travel():
+    found = nsode.loads(SLIDER).sympy()
+    a, beta = found.symbols["F.a"], found.symbols["F.beta"]
+    assert sp.lambdify([a, beta], a / beta)(3.0, 2.0) == 1.5
+    assert pickle.loads(pickle.dumps(a / beta)) == a / beta
+    assert copy.deepcopy(a) == a
+
+
+def test_w_of_the_sphere_is_that_of_a_solid_sphere():
+    """A force at the rim of a solid sphere sees 2/7 of its mass, one through the center all."""
+    found = nsode.load(MODELS / "rolling_sphere.di").sympy()
+    M = found.symbols["M"]
+    assert found.multipliers == ("N", "F.x", "F.y")
+    assert sp.diag(1 / M, 7 / (2 * M), 7 / (2 * M)) == found.W
+
+
+def test_w_of_two_blocks_couples_the_frictions_that_touch_one_block():
+    """The paper's Example II, M1 = 0.5 and M2 = 1, at the left wall and between the blocks."""
+    found = nsode.load(MODELS / "two_blocks_conveyor.di").sympy()
+    rows = [found.multipliers.index(name) for name in ("F1", "F2")]
+    M1, M2 = found.symbols["M1"], found.symbols["M2"]
+    expected = sp.Matrix([[1 / M1, 1 / M1], [1 / M1, 1 / M1 + 1 / M2]])
+    block = found.W.extract(rows, rows)
+    assert (block - expected).applyfunc(sp.simplify).is_zero_matrix
+    np.testing.assert_array_equal(block.subs(found.defaults), [[2.0, 2.0], [2.0, 3.0]])
+
+
+def test_w_behind_a_mass_matrix_is_its_inverse():
+    found = nsode.load(MODELS / "cart_pole.di").sympy()
+    mc, mp, length, phi = (found.symbols[name] for name in ("mc", "mp", "l", "phi"))
+    coupling = mp * length * sp.cos(phi)
+    mass = sp.Matrix([[mc + mp, coupling], [coupling, mp * length**2]])
+    assert (found.W * mass).applyfunc(sp.simplify) == sp.eye(2)
+
+
+def test_families_have_no_w():
+    assert nsode.load(MODELS / "granular_column.di").sympy().W is None
 
 
 def test_a_call_that_nobody_knows_is_loud():

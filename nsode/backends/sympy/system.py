@@ -40,14 +40,18 @@ class SymbolicSystem:
         Linear systems that define their unknowns.
     rates
         Pairs of state and rate; the auxiliary states come last.
+    limits
+        The index of each of these rates with its first and last value, as a SymPy ``Sum``
+        has it; None for what is no family.
     outputs
         Pairs of output and value.
     auxiliary
         The states that the rewrite appended.
     defaults
         Values of the parameters, for ``subs``.
-    typeset
-        Each symbol as TeX, as :mod:`nsode.backends.latex` prints it.
+    multipliers, W
+        The set-valued forces, and the effective inverse mass (Delassus matrix) that tells
+        what each does to each gap and each slip; None for families and where it has kinks.
     """
 
     name: str
@@ -56,10 +60,12 @@ class SymbolicSystem:
     bindings: tuple[tuple[sp.Basic, sp.Expr], ...]
     solves: tuple[Solve, ...]
     rates: tuple[tuple[sp.Basic, sp.Expr], ...]
+    limits: tuple[tuple[sp.Symbol, int, int] | None, ...]
     outputs: tuple[tuple[sp.Basic, sp.Expr], ...]
     auxiliary: tuple[sp.Basic, ...]
     defaults: Mapping[sp.Symbol, sp.Number]
-    typeset: Mapping[sp.Symbol, str]
+    multipliers: tuple[str, ...] = ()
+    W: sp.ImmutableMatrix | None = None
 
     def rate(self, state: str) -> sp.Expr:
         """Return the rate of a scalar state, in terms of bindings.
@@ -80,14 +86,15 @@ class SymbolicSystem:
             expression = expression.xreplace({symbol: value})
         return expression
 
-    def latex(self, expression: sp.Basic) -> str:
-        """Return an expression as TeX with names as the paper prints them."""
-        import sympy as sp
-
-        text: str = sp.latex(expression, symbol_names=dict(self.typeset))
-        return text
-
     def _repr_latex_(self) -> str:
-        states = column(self.latex(state) for state, _ in self.rates)
-        rates = column(self.latex(rate) for _, rate in self.rates)
+        sides = zip(*self.rates, strict=True)
+        states, rates = (column(map(_spread, side, self.limits)) for side in sides)
         return rf"$\displaystyle \frac{{\mathrm{{d}}}}{{\mathrm{{d}}t}} {states} = {rates}$"
+
+
+def _spread(value: sp.Basic, limits: tuple[sp.Symbol, int, int] | None) -> str:
+    """Return a value as TeX, or those of all elements of a family."""
+    from sympy import latex
+
+    text: str = latex(value)
+    return text if limits is None else r"\left({}\right)_{{{}={}}}^{{{}}}".format(text, *limits)
