@@ -1,17 +1,37 @@
-"""Files are written whole or not at all."""
+"""Files are read where they are files, and written whole or not at all."""
 
 from __future__ import annotations
 
 import errno
 import os
 import secrets
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+import stat
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from operator import methodcaller
 from pathlib import Path
 from typing import IO
 
 _MARK, _HEAD = b"nsode", 4096  # generated files say at their head who wrote them
+
+
+@contextmanager
+def open_regular(path: str | os.PathLike[str]) -> Iterator[IO[bytes]]:
+    """Open a file to read, without waiting for what is none, such as a pipe or a terminal.
+
+    Raises
+    ------
+    OSError
+        If there is no such file, or it is a folder, a pipe or a device.
+    """
+    with open(path, "rb", opener=_without_waiting) as file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise OSError(errno.EINVAL, "it is not a regular file", os.fspath(path))
+        yield file
+
+
+def _without_waiting(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0))
 
 
 def write_all(files: Mapping[str, str], folder: Path) -> list[Path]:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nsode.diagnostics import Diagnostic, ModelError, quoted, suggest
+from nsode.files import open_regular
 from nsode.ode import AugmentedODE, element_names, size
 from nsode.simulate.settings import Settings
 
@@ -101,20 +102,49 @@ def read(path: Path, name: str) -> tuple[Vector, Vector]:
         NS601 if the file cannot be read, NS508 if it does not hold the data.
     """
     try:
-        with path.open(encoding="utf-8-sig") as file:
-            first = [cell.strip().strip('"') for cell in file.readline().split(",")]
-            headed = not all(map(_is_number, first))
-            if not headed:
-                file.seek(0)
-            column = _column(path, name, first, headed)
-            table = np.loadtxt(file, delimiter=",", usecols=(0, column), ndmin=2, comments=None)
+        with open_regular(path) as file:
+            lines = file.read().decode("utf-8-sig").splitlines()
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise ModelError([Diagnostic("NS601", f"cannot read `{path}`: {reason}")]) from error
+    except UnicodeDecodeError as error:
+        raise _no_table(path, "it is not UTF-8") from error
+    if not lines:
+        raise _no_table(path, "it is empty")
+    first = _cells(lines[0])
+    headed = not all(map(_is_number, first))
+    column = _column(path, name, first, headed)
+    if not any(map(str.strip, lines[headed:])):
+        raise _no_table(path, "no row stands below its head")
+    try:
+        table = np.loadtxt(
+            lines[headed:], delimiter=",", usecols=(0, column), ndmin=2, comments=None
+        )
     except ValueError as error:
-        message = f"`{path}` is no table of numbers: {error}"
-        raise ModelError([Diagnostic("NS508", message.splitlines()[0])]) from error
+        raise _no_table(path, _fault(lines, headed, column)) from error
     return table[:, 0], table[:, 1]
+
+
+def _no_table(path: Path, why: str) -> ModelError:
+    return ModelError([Diagnostic("NS508", f"`{path}` is no table of numbers: {why}")])
+
+
+def _cells(line: str) -> list[str]:
+    return [cell.strip().strip('"') for cell in line.split(",")]
+
+
+def _fault(lines: Sequence[str], headed: bool, column: int) -> str:
+    """Return what is wrong with the first row that holds no time and value."""
+    for number, line in enumerate(lines, start=1):
+        cells = _cells(line)
+        if (number == 1 and headed) or not line.strip():
+            continue
+        if len(cells) <= column:
+            return f"line {number} ends before column {column + 1}"
+        for cell in (cells[0], cells[column]):
+            if not _is_number(cell) or "_" in cell:
+                return f"`{cell[:20]}` in line {number} is no number"
+    return "its rows differ"
 
 
 def _column(path: Path, name: str, first: list[str], headed: bool) -> int:
@@ -122,7 +152,8 @@ def _column(path: Path, name: str, first: list[str], headed: bool) -> int:
         return first.index(name, 1)
     if len(first) == 2:
         return 1
-    found = quoted(first[1:9]) if headed else f"{len(first)} columns"
+    columns = "1 column" if len(first) == 1 else f"{len(first)} columns"
+    found = quoted(first[1:9]) if headed and len(first) > 1 else columns
     way_out = "the first line names the columns: `t,fe`; times stand in the first"
     message = f"`{path}` has no column `{name}`"
     raise ModelError([Diagnostic("NS508", message, notes=(f"it has {found}",), help=way_out)])

@@ -4,18 +4,27 @@ from __future__ import annotations
 
 import json
 import zipfile
-from collections.abc import Callable
+import zlib
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
 
 from nsode.diagnostics import Diagnostic, ModelError
-from nsode.files import write_binary
+from nsode.files import open_regular, write_binary
 from nsode.simulate.trajectory import Trajectory
 
+_Array = np.ndarray[Any, Any]
+
 _SCHEMA = 1
-_ARRAYS = ("t", "x", "y", "psi", "modes")
+#: What has a row for each time: under which name, and in which numbers.
+_KINDS = {
+    "x": ("x", np.float64),
+    "y": ("y", np.float64),
+    "psi": ("psi", np.float64),
+    "mode": ("modes", np.int8),
+}
 _CHUNK = 10_000  # rows of text that are made at a time
 
 
@@ -58,28 +67,46 @@ def load(path: Path) -> Trajectory:
         NS601 if it is something else.
     """
     try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as held:
-            arrays = {name: held[name] for name in held.files}
-        meta = json.loads(str(arrays["meta"][()]))
-        about = meta.pop("trajectory")
-        return Trajectory(
-            name=about["name"],
-            t=arrays["t"], x=arrays["x"], y=arrays["y"],
-            x_names=_names(arrays["x_names"]), y_names=_names(arrays["y_names"]),
-            psi=arrays["psi"], psi_names=_names(arrays["psi_names"]),
-            modes=arrays["modes"], mode_names=_names(arrays["mode_names"]),
-            forces=tuple(about["forces"]), units=about["units"], meta=meta,
-        )  # fmt: skip
+        with open_regular(path) as file, np.load(file, allow_pickle=False) as held:
+            return _trajectory({name: held[name] for name in held.files})
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise ModelError([Diagnostic("NS601", f"cannot read `{path}`: {reason}")]) from error
-    except (KeyError, TypeError, ValueError, EOFError, zipfile.BadZipFile) as error:
+    except _FOREIGN as error:
         message = f"`{path}` is no trajectory that nsode wrote"
         raise ModelError([Diagnostic("NS601", message)]) from error
 
 
-def _names(array: np.ndarray[Any, Any]) -> tuple[str, ...]:
-    return tuple(map(str, array.tolist()))
+#: What reading raises on files that hold something else, or a size that no memory has.
+_FOREIGN = (
+    *(AttributeError, EOFError, KeyError, MemoryError, NotImplementedError, RecursionError),
+    *(TypeError, ValueError, zipfile.BadZipFile, zlib.error),
+)
+
+
+def _trajectory(arrays: Mapping[str, _Array]) -> Trajectory:
+    meta = json.loads(str(arrays["meta"][()]))
+    about = meta.pop("trajectory")
+    t = _checked(arrays, "t", (arrays["t"].size,), np.float64)
+    named = {kind: tuple(map(str, arrays[f"{kind}_names"].tolist())) for kind in _KINDS}
+    tables = {
+        kind: _checked(arrays, key, (t.size, len(named[kind])), dtype)
+        for kind, (key, dtype) in _KINDS.items()
+    }
+    return Trajectory(
+        name=about["name"], t=t,
+        x=tables["x"], x_names=named["x"],
+        y=tables["y"], y_names=named["y"],
+        psi=tables["psi"], psi_names=named["psi"],
+        modes=tables["mode"], mode_names=named["mode"],
+        forces=tuple(about["forces"]), units=about["units"], meta=meta,
+    )  # fmt: skip
+
+
+def _checked(arrays: Mapping[str, _Array], key: str, shape: tuple[int, ...], dtype: type) -> _Array:
+    if (arrays[key].shape, arrays[key].dtype) != (shape, dtype):
+        raise ValueError(key)
+    return arrays[key]
 
 
 def _npz(trajectory: Trajectory, file: IO[bytes]) -> None:
@@ -92,9 +119,10 @@ def _npz(trajectory: Trajectory, file: IO[bytes]) -> None:
     meta = json.dumps({"trajectory": about, **trajectory.meta}, allow_nan=False)
     names: dict[str, Any] = {
         f"{kind}_names": np.array(getattr(trajectory, f"{kind}_names"), dtype=np.str_)
-        for kind in ("x", "y", "psi", "mode")
+        for kind in _KINDS
     }
-    arrays: dict[str, Any] = {key: getattr(trajectory, key) for key in _ARRAYS}
+    keys = ("t", *(key for key, _ in _KINDS.values()))
+    arrays: dict[str, Any] = {key: getattr(trajectory, key) for key in keys}
     np.savez(file, meta=np.array(meta), **arrays, **names)
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-import stat
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
+from nsode.files import open_regular
 from nsode.limits import DEFAULT_LIMITS, Limits, either
 from nsode.source import Source, Span
 
@@ -23,10 +23,7 @@ def read(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> Sourc
     """
     name = os.fspath(path)
     try:
-        with open(path, "rb", opener=_open_without_waiting) as file:
-            status = os.fstat(file.fileno())
-            if not stat.S_ISREG(status.st_mode):
-                raise _unreadable(name, "it is not a regular file")
+        with open_regular(path) as file:
             content = file.read(limits.size + 1)
     except (OSError, ValueError) as error:
         raise _unreadable(name, _reason(error)) from error
@@ -56,11 +53,6 @@ def too_large(source: Source, limits: Limits) -> ModelError:
     way_out = "use a family (`state x[i in 1..n]`) instead of copies"
     help_ = either(way_out, limits.raised("size"))
     return ModelError([Diagnostic("NS012", message, help=help_)], source)
-
-
-def _open_without_waiting(path: str, flags: int) -> int:
-    """Open a file so that a pipe without a writer does not block."""
-    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0))
 
 
 def _reason(error: OSError | ValueError) -> str:

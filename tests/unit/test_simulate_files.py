@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -119,6 +120,38 @@ def test_something_else_is_not_taken_for_a_trajectory(tmp_path, content):
         Trajectory.load(path)
 
 
+@pytest.mark.parametrize(
+    "foreign",
+    [
+        {"x": np.zeros(11)},
+        {"x": np.zeros((11, 1), complex)},
+        {"x": np.zeros((2, 1))},
+        {"t": np.zeros((11, 1))},
+        {"t": np.array("0")},
+        {"x_names": np.array(["p", "q"])},
+        {"modes": np.zeros((11, 1), np.int8)},
+        {"meta": np.array("null")},
+        {"meta": np.array("[" * 100_000)},
+        {"meta": np.array("{}")},
+    ],
+)
+def test_arrays_that_do_not_fit_are_no_trajectory(tmp_path, foreign):
+    path = nsode.loads(DECAY).simulate().save(tmp_path / "run.npz")
+    np.savez(path, **(dict(np.load(path)) | foreign))
+    with pytest.raises(ModelError, match="no trajectory"):
+        Trajectory.load(path)
+
+
+def test_a_head_that_promises_more_than_any_memory_is_no_trajectory(tmp_path):
+    path = tmp_path / "run.npz"
+    head = b"{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000000, 3), }"
+    array = b"\x93NUMPY\x01\x00" + (len(head) + 1).to_bytes(2, "little") + head + b"\n"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("t.npy", array)
+    with pytest.raises(ModelError, match="no trajectory"):
+        Trajectory.load(path)
+
+
 def test_pickled_arrays_are_refused(tmp_path):
     path = tmp_path / "run.npz"
     np.savez(path, t=np.array([{}], dtype=object), meta=np.array("{}"))
@@ -196,8 +229,12 @@ def test_the_command_takes_settings_parameters_and_inputs(model, capfd):
     [
         ("t,g,h\n0,1,2\n", "has no column `f`"),
         ("0,1,2\n", "has no column `f`"),
-        ("t,f\n0,one\n", "no table of numbers"),
-        ("t,f\n0,1\n1\n", "no table of numbers"),
+        ("0 1\n1 2\n", "it has 1 column\n"),
+        ("t,f\n0,1\n1,one\n", "no table of numbers: `one` in line 3 is no number"),
+        ("0,1\n1,1_0\n", "no table of numbers: `1_0` in line 2 is no number"),
+        ("t,f\n0,1\n1\n", "no table of numbers: line 3 ends before column 2"),
+        ("t,f\n\n", "no table of numbers: no row stands below its head"),
+        ("", "no table of numbers: it is empty"),
     ],
 )
 def test_a_table_that_does_not_hold_the_input_is_refused(model, text, message, capfd):
@@ -205,6 +242,16 @@ def test_a_table_that_does_not_hold_the_input_is_refused(model, text, message, c
     Path("data.csv").write_text(text)
     assert command(["simulate", model, "-u", "f=data.csv"]) == 1
     assert message in capfd.readouterr().err
+
+
+def test_a_pipe_or_a_device_is_no_table_and_is_not_waited_for(model, capfd):
+    os.mkfifo("pipe")
+    Path("m.di").write_text("model m\ninput f\nstate p = 0\nder(p) = f\nsimulate 1 step 0.1\n")
+    for path in ("pipe", "/dev/zero"):
+        assert command(["simulate", model, "-u", f"f={path}"]) == 2
+        assert capfd.readouterr().err == (
+            f"error[NS601]: cannot read `{path}`: it is not a regular file\n"
+        )
 
 
 @pytest.mark.parametrize(
