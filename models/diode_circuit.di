@@ -25,4 +25,4 @@ L*der(i) = source - vc - Rs*i + D
 output load = vc/R  {A}
 
 approximate D: K = 2000 {ohm}, beta = 2e-4 {s}, alpha = 1e-4 {s}
-simulate 0.3 {s} step 2e-5 {s} method rk4
+simulate 0.3 {s} step 1e-5 {s} method rk4

@@ -1,7 +1,8 @@
 # Two fingers hold an object by friction alone, while the hand shakes.
 #
-# The weight is carried as long as mu times both normal forces exceeds it. A smoothed
-# friction law lets the object creep out of the hand; this one does not.
+# What the fingers carry is the weight and the shake, up to M*(g + A*omega^2) = 6.3 N; they
+# hold as long as mu times both normal forces, 12 N here, exceeds it. A smoothed friction
+# law lets the object creep out of the hand; this one does not. Try -p G=6.
 model gripper
 
 parameter M  = 0.5   {kg}       # object

@@ -83,13 +83,14 @@ def write_generated(files: Mapping[str, str], folder: Path) -> list[Path]:
 
 
 def write_binary(path: Path, write: Callable[[IO[bytes]], object]) -> None:
-    """Write one file by a function that fills it, whole or not at all.
+    """Write one file by a function that fills it, whole or not at all; its folder is made.
 
     Raises
     ------
     OSError
         If the file cannot be written; an older one stays as it was.
     """
+    _make(path.parent)
     _refuse_folder(path)
     draft = _draft(path, write)
     try:

@@ -21,6 +21,7 @@ static inline int rates(real t, const real *x, const real *u, const real *p, rea
     const real p_kc = p[burridge_knopoff_P_kc];
     const real p_kp = p[burridge_knopoff_P_kp];
     const real p_V = p[burridge_knopoff_P_V];
+    const real p_vc = p[burridge_knopoff_P_vc];
     const real *const p_F0 = p + burridge_knopoff_P_F0;
     const real p_F_K = p[burridge_knopoff_P_F_K];
     const real p_F_beta = p[burridge_knopoff_P_F_beta];
@@ -37,7 +38,7 @@ static inline int rates(real t, const real *x, const real *u, const real *p, rea
     }
     for (int i = 1; i <= 32; ++i) {
         const real b_F_z = x_F_a[i - 1] + p_F_beta*x_v[i - 1];
-        const real b_F_Z = p_F0[i - 1]*(1/p_F_K);
+        const real b_F_Z = p_F0[i - 1]/(1 + fabs(x_v[i - 1])*(1/p_vc))*(1/p_F_K);
         const real b_F_s = sat(b_F_Z, b_F_z);
         b_F[i - 1] = p_F_K*b_F_s;
         dx[burridge_knopoff_X_x + i - 1] = x_v[i - 1];
@@ -58,24 +59,28 @@ static inline int rates(real t, const real *x, const real *u, const real *p, rea
 static int check(real t, const real *x, const real *u, const real *p)
 {
     (void)t;
-    (void)x;
     (void)u;
+    const real *const x_v = x + burridge_knopoff_X_v;
+    const real p_vc = p[burridge_knopoff_P_vc];
     const real *const p_F0 = p + burridge_knopoff_P_F0;
     const real p_F_K = p[burridge_knopoff_P_F_K];
     const real p_F_beta = p[burridge_knopoff_P_F_beta];
     for (int i = 1; i <= 32; ++i) {
-        if (!(p_F0[i - 1] >= 0)) {
+        if (!(p_F0[i - 1]/(1 + fabs(x_v[i - 1])/p_vc) >= 0)) {
             return burridge_knopoff_BROKEN + 0;
         }
         if (!(p_F0[i - 1] >= 0)) {
             return burridge_knopoff_BROKEN + 1;
         }
     }
-    if (!(p_F_K > 0)) {
+    if (!(p_vc > 0)) {
         return burridge_knopoff_BROKEN + 2;
     }
-    if (!(p_F_beta > 0)) {
+    if (!(p_F_K > 0)) {
         return burridge_knopoff_BROKEN + 3;
+    }
+    if (!(p_F_beta > 0)) {
+        return burridge_knopoff_BROKEN + 4;
     }
     return burridge_knopoff_OK;
 }
@@ -146,12 +151,13 @@ int burridge_knopoff_out(real t, const real *x, const real *u, const real *p, re
     (void)u;
     const real *const x_v = x + burridge_knopoff_X_v;
     const real *const x_F_a = x + burridge_knopoff_X_F_a;
+    const real p_vc = p[burridge_knopoff_P_vc];
     const real *const p_F0 = p + burridge_knopoff_P_F0;
     const real p_F_K = p[burridge_knopoff_P_F_K];
     const real p_F_beta = p[burridge_knopoff_P_F_beta];
     for (int i = 1; i <= 32; ++i) {
         const real b_F_z = x_F_a[i - 1] + p_F_beta*x_v[i - 1];
-        const real b_F_Z = p_F0[i - 1]*(1/p_F_K);
+        const real b_F_Z = p_F0[i - 1]/(1 + fabs(x_v[i - 1])*(1/p_vc))*(1/p_F_K);
         const real b_F_s = sat(b_F_Z, b_F_z);
         const real b_F = p_F_K*b_F_s;
         y[burridge_knopoff_Y_F + i - 1] = b_F;
@@ -176,6 +182,7 @@ int burridge_knopoff_jac(real t, const real *x, const real *u, const real *p, re
     const real p_m = p[burridge_knopoff_P_m];
     const real p_kc = p[burridge_knopoff_P_kc];
     const real p_kp = p[burridge_knopoff_P_kp];
+    const real p_vc = p[burridge_knopoff_P_vc];
     const real *const p_F0 = p + burridge_knopoff_P_F0;
     const real p_F_K = p[burridge_knopoff_P_F_K];
     const real p_F_beta = p[burridge_knopoff_P_F_beta];
@@ -183,9 +190,15 @@ int burridge_knopoff_jac(real t, const real *x, const real *u, const real *p, re
     real b_left_d_x_to0[32];
     for (int i = 1; i <= 32; ++i) {
         const real b_F_z = x_F_a[i - 1] + p_F_beta*x_v[i - 1];
-        const real b_F_Z = p_F0[i - 1]*(1/p_F_K);
+        const real b_F_Z = p_F0[i - 1]/(1 + fabs(x_v[i - 1])*(1/p_vc))*(1/p_F_K);
+        const real b_F_Z_part1 = 1 + fabs(x_v[i - 1])*(1/p_vc);
+        const real b_F_Z_part1_d_v_to0 = (x_v[i - 1] > 0 ? 1/p_vc : 0) + (x_v[i - 1] < 0 ? -1/p_vc :
+            0);
+        const real b_F_Z_d_v_to0 = 1/p_F_K*(-p_F0[i -
+            1]/b_F_Z_part1/b_F_Z_part1)*b_F_Z_part1_d_v_to0;
         const real b_F_s_d_F_a_to0 = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
-        const real b_F_s_d_v_to0 = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
+        const real b_F_s_d_v_to0 = (fabs(b_F_z) < b_F_Z ? p_F_beta : 0) + (b_F_z >= b_F_Z && b_F_z >
+            0 ? b_F_Z_d_v_to0 : 0) + (-b_F_z >= b_F_Z && b_F_z < 0 ? -b_F_Z_d_v_to0 : 0);
         const real b_F_d_F_a_to0 = p_F_K*b_F_s_d_F_a_to0;
         const real b_F_d_v_to0 = p_F_K*b_F_s_d_v_to0;
         J[jac_places[i - 1]] += 1;
@@ -360,7 +373,7 @@ int burridge_knopoff_step_euler(real t, real h, real *x, const real *u, const re
 }
 
 const burridge_knopoff_real burridge_knopoff_p0[] = {
-    1, 40, 10, (real)0.05, (real)1.5205378626684307, (real)1.7279894445553152,
+    1, 40, 10, (real)0.01, (real)0.1, (real)1.5205378626684307, (real)1.7279894445553152,
     (real)2.3251439200785584, (real)2.456472625363814, (real)1.9338241249511134,
     (real)1.5059841879535691, (real)1.7859086652519245, (real)2.3725565802396744,
     (real)2.425451762267059, (real)1.8688125731480356, (real)1.50012241332069,
@@ -389,7 +402,7 @@ const char burridge_knopoff_u_names[] =
     "";
 
 const char burridge_knopoff_p_names[] =
-    "m\0kc\0kp\0V\0F0[1]\0F0[2]\0F0[3]\0F0[4]\0F0[5]\0F0[6]\0F0[7]\0F0[8]\0F0[9]\0F0[10]\0"
+    "m\0kc\0kp\0V\0vc\0F0[1]\0F0[2]\0F0[3]\0F0[4]\0F0[5]\0F0[6]\0F0[7]\0F0[8]\0F0[9]\0F0[10]\0"
     "F0[11]\0F0[12]\0F0[13]\0F0[14]\0F0[15]\0F0[16]\0F0[17]\0F0[18]\0F0[19]\0F0[20]\0F0[21]\0"
     "F0[22]\0F0[23]\0F0[24]\0F0[25]\0F0[26]\0F0[27]\0F0[28]\0F0[29]\0F0[30]\0F0[31]\0F0[32]\0"
     "F.K\0F.beta\0";

@@ -11,7 +11,7 @@ typedef double burridge_knopoff_real;
 enum {
     burridge_knopoff_NX = 96,
     burridge_knopoff_NU = 0,
-    burridge_knopoff_NP = 38,
+    burridge_knopoff_NP = 39,
     burridge_knopoff_NY = 33,
     burridge_knopoff_JAC_NNZ = 254
 };
@@ -29,9 +29,10 @@ enum {
     burridge_knopoff_P_kc = 1,
     burridge_knopoff_P_kp = 2,
     burridge_knopoff_P_V = 3,
-    burridge_knopoff_P_F0 = 4,
-    burridge_knopoff_P_F_K = 36,
-    burridge_knopoff_P_F_beta = 37
+    burridge_knopoff_P_vc = 4,
+    burridge_knopoff_P_F0 = 5,
+    burridge_knopoff_P_F_K = 37,
+    burridge_knopoff_P_F_beta = 38
 };
 
 /* outputs */

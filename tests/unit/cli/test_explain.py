@@ -12,7 +12,7 @@ def test_a_dash_is_standard_output(sound, capsys):
     assert capsys.readouterr().out == told
 
 
-@pytest.mark.parametrize("place", ["", ".", "..", "no/such/x.txt"])
+@pytest.mark.parametrize("place", ["", ".", "..", "block.di/x.txt"])
 def test_what_is_no_file_cannot_be_written(sound, tmp_path, monkeypatch, place, capsys):
     monkeypatch.chdir(tmp_path)
     assert run(["explain", str(sound), "-o", place]) == 2
