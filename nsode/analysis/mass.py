@@ -103,7 +103,10 @@ def static_load(scene: Scene, local: Local, mass: EffectiveMass) -> list[float]:
     load = [0.0] * len(mass.names)
     if rows:
         pressing = -(local.motion @ local.rates)[rows]
-        forces = nonnegative_least_squares(mass.array[np.ix_(rows, rows)], pressing)
+        w = mass.array[np.ix_(rows, rows)]
+        # Scaled, as its tolerance is absolute and products of huge numbers overflow.
+        of_w, of_pressing = (np.abs(part).max() or 1.0 for part in (w, pressing))
+        forces = nonnegative_least_squares(w / of_w, pressing / of_pressing) * (of_pressing / of_w)
         for row, force in zip(rows, forces.tolist(), strict=True):
             load[row] = force
     return load

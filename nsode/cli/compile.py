@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, cast
 
@@ -14,7 +15,7 @@ from nsode.cli.model import folder_option, summary, with_model
 from nsode.cli.named import named
 from nsode.cli.terminal import bold, complain, quiet, say, typed
 from nsode.diagnostics import ModelError
-from nsode.ode import AugmentedODE
+from nsode.ode import Placed
 from nsode.passes.count import operations
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def command(
     complain(model.diagnostics, model.source)
     if ledger:
         model = model.with_ledger()
-    whole = model.ode
+    whole = model
     if outputs is not None:
         model = _only(model, outputs)
     if bake:
@@ -87,8 +88,9 @@ def command(
     options = Options(prefix=prefix, real=cast(Literal["double", "float"], real))
     with writing():
         paths = model.compile(target, folder, options)
-    say(f"{bold(model.name)}: {summary(model)}, {operations(model.ode):,} operations")
-    _show_dropped(whole, model.ode)
+    say(f"{bold(model.name)}: {_size(model)}")
+    if model is not whole:
+        _show_reduction(whole, model, bake)
     _show(paths)
     return 0
 
@@ -101,12 +103,30 @@ def _only(model: Model, outputs: list[str]) -> Model:
         raise click.BadParameter(message, param_hint="`--outputs`") from error
 
 
-def _show_dropped(whole: AugmentedODE, kept: AugmentedODE) -> None:
-    left = {state.name for state in kept.states}
-    dropped = [state.name for state in whole.states if state.name not in left]
-    if dropped:
-        more = f" and {len(dropped) - _SHOWN:,} more" if len(dropped) > _SHOWN else ""
-        say(f"  left out: {', '.join(dropped[:_SHOWN])}{more}")
+def _size(model: Model) -> str:
+    return f"{summary(model)}, {operations(model.ode):,} operations"
+
+
+def _show_reduction(whole: Model, kept: Model, baked: Mapping[str, float]) -> None:
+    """Say what the model was, and what has become of the rest."""
+    if _size(whole) != _size(kept):
+        say(f"  before: {_size(whole)}")
+    _show_list("states left out", _dropped(whole.ode.states, kept.ode.states))
+    _show_list("outputs left out", _dropped(whole.ode.outputs, kept.ode.outputs))
+    units = {parameter.name: parameter.unit for parameter in whole.ode.parameters}
+    shown = (f"{name} = {value!r} {units[name] or ''}" for name, value in baked.items())
+    _show_list("baked in", [text.rstrip() for text in shown])
+
+
+def _dropped(before: Sequence[Placed], after: Sequence[Placed]) -> list[str]:
+    kept = {item.name for item in after}
+    return [item.name for item in before if item.name not in kept]
+
+
+def _show_list(title: str, items: list[str]) -> None:
+    if items:
+        more = f" and {len(items) - _SHOWN:,} more" if len(items) > _SHOWN else ""
+        say(f"  {title}: {', '.join(items[:_SHOWN])}{more}")
 
 
 def _show(paths: list[Path]) -> None:

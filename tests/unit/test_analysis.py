@@ -420,6 +420,18 @@ def test_constants_too_far_apart_for_their_numbers_leave_no_warning_of_the_machi
     assert np.isnan(contact.mapped_restitution) or 0 <= contact.mapped_restitution <= 1
 
 
+def test_huge_loads_leave_no_warning_of_the_machine():
+    text = """model heavy
+state p = 0
+state v = 0
+force N = dio(1e100*p)
+der(p) = v
+der(v) = 1e100*N - 1e200
+approximate N: K = 1, alpha = 0.1, beta = 0.2
+"""
+    np.testing.assert_allclose(nsode.loads(text).analyze().mass.array, [[1e200]])
+
+
 def test_a_run_tells_where_else_the_step_was_looked_at(tmp_path):
     from nsode.cli.analyze import command
 

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 import shlex
 from pathlib import Path
 
@@ -50,8 +51,20 @@ def test_only_what_was_asked_for_is_compiled(tmp_path, capsys):
     assert told[0].startswith(
         "rolling_sphere: 2 states + 1 auxiliary, 1 set-valued term (N: dio), "
     )
-    assert told[1].startswith("  left out: p.x, p.y, v.x, v.y, w.x")
+    assert told[1].startswith("  before: 13 states + 3 auxiliary, 2 set-valued terms (N: dio, F: ")
+    assert told[2].startswith("  states left out: p.x, p.y, v.x, v.y, w.x")
+    assert told[3] == "  outputs left out: N, F.x, F.y"
     assert "rolling_sphere_NX = 3" in (out / "rolling_sphere.h").read_text()
+
+
+def test_what_is_baked_in_is_said_with_its_unit(tmp_path, capsys):
+    sphere = next(model for model in MODELS if model.stem == "rolling_sphere")
+    baked = ["--bake", "M=2", "--bake", "mu=0.25", "--bake", "N.K=1e5"]
+    assert run(["compile", str(sphere), "-o", str(tmp_path / "out"), *baked]) == 0
+    told = capsys.readouterr().out.splitlines()
+    before, after = (int(re.search(r"(\d+) operations", line)[1]) for line in (told[1], told[0]))
+    assert after < before
+    assert told[2] == "  baked in: M = 2.0 kg, mu = 0.25, N.K = 100000.0 N/m"
 
 
 def test_an_output_that_there_is_not_is_wrong_usage(sound, tmp_path, capsys):
