@@ -152,6 +152,11 @@ def suggest(name: str, known: Iterable[str]) -> str | None:
     return f"did you mean `{near[0]}`?" if near else None
 
 
+def visible(text: str) -> str:
+    """Return text that a terminal shows and does not obey, on one line."""
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
+
+
 def render(diagnostics: Sequence[Diagnostic], source: Source | None, *, color: bool = False) -> str:
     """Return diagnostics as text for a person, one after the other."""
     return "\n\n".join(_render_one(d, source, color) for d in diagnostics)
@@ -166,22 +171,22 @@ def _paint(text: str, style: str, color: bool) -> str:
 
 def _render_one(diagnostic: Diagnostic, source: Source | None, color: bool) -> str:
     head = _paint(f"{diagnostic.severity}[{diagnostic.code}]", _COLORS[diagnostic.severity], color)
-    lines = [f"{head}: {diagnostic.message}"]
+    lines = [f"{head}: {visible(diagnostic.message)}"]
     width = 3
     if source is not None and diagnostic.labels:
         positions = [source.position(label.span.start) for label in diagnostic.labels]
         width = max(3, *(len(str(p.line)) + 2 for p in positions))
         first = positions[0]
-        lines.append(f"{'-->':>{width + 2}} {source.name}:{first.line}:{first.column}")
+        lines.append(f"{'-->':>{width + 2}} {visible(source.name)}:{first.line}:{first.column}")
         for label, position in zip(diagnostic.labels, positions, strict=True):
             primary = label is diagnostic.labels[0]
             style = _COLORS[diagnostic.severity] if primary else "36"
             lines.extend(
                 _excerpt(label, source, position.line, position.column, width, style, color)
             )
-    lines.extend(f"{' ' * width} = note: {note}" for note in diagnostic.notes)
+    lines.extend(f"{' ' * width} = note: {visible(note)}" for note in diagnostic.notes)
     if diagnostic.help is not None:
-        lines.append(f"{' ' * width} = help: {diagnostic.help}")
+        lines.append(f"{' ' * width} = help: {visible(diagnostic.help)}")
     return "\n".join(lines)
 
 
@@ -192,7 +197,7 @@ def _excerpt(
     label: Label, source: Source, line: int, column: int, width: int, style: str, color: bool
 ) -> list[str]:
     text = source.line(line).replace("\t", " ")
-    shown = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
+    shown = visible(text)
     start = column - 1
     length = max(1, min(label.span.end - label.span.start, len(shown) - start))
     skip = 0

@@ -11,7 +11,7 @@ import click
 from nsode.cli.failure import REFUSED, status_of
 from nsode.cli.model import STANDARD_INPUT, complete_files, limit_option, load, summary
 from nsode.cli.terminal import complain, say
-from nsode.diagnostics import SCHEMA_VERSION, Diagnostic, ModelError, as_json
+from nsode.diagnostics import SCHEMA_VERSION, Diagnostic, ModelError, as_json, visible
 from nsode.limits import Limits
 from nsode.source import Source
 
@@ -82,7 +82,7 @@ def _examine(argument: str, strict: bool, limits: Limits) -> Finding:
 def _show(finding: Finding) -> None:
     complain(finding.diagnostics, finding.source)
     if finding.status == 0:
-        say(f"{finding.source.name}: ok, {finding.summary}")
+        say(f"{visible(finding.source.name)}: ok, {finding.summary}")
 
 
 def _plain(finding: Finding) -> dict[str, object]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
-from nsode.diagnostics import Diagnostic
+from nsode.diagnostics import Diagnostic, ModelError
 
 #: How to get a compiler, for whoever has none.
 WAY_OUT = "install gcc or clang, name one in CC, or `pip install 'nsode[compiler]'`"
@@ -37,7 +37,13 @@ class Compiler:
 
 
 def compiler() -> Compiler | None:
-    """Return the C compiler that runs models, None if this machine has none."""
+    """Return the C compiler that runs models, None if this machine has none.
+
+    Raises
+    ------
+    ModelError
+        NS509 where ``CC`` cannot be read as a command.
+    """
     for program, *arguments in _commands():
         path = shutil.which(program)
         if path is not None:
@@ -58,7 +64,11 @@ def _commands() -> Iterator[Sequence[str]]:
 
 
 def _named() -> list[str]:
-    return shlex.split(os.environ.get("CC", ""))
+    try:
+        return shlex.split(os.environ.get("CC", ""))
+    except ValueError as error:
+        why = f"CC is not the command of a compiler: {str(error).lower()}"
+        raise ModelError([Diagnostic("NS509", why, help=WAY_OUT)]) from error
 
 
 def overlooked() -> list[Diagnostic]:

@@ -182,6 +182,13 @@ def test_a_compiler_in_cc_that_is_not_there_is_named(home, monkeypatch):
     assert overlooked() == []
 
 
+def test_a_cc_that_is_no_command_is_refused(home, monkeypatch):
+    monkeypatch.setenv("CC", 'gcc "-O2')
+    with pytest.raises(ModelError, match="no closing quotation") as refusal:
+        run()
+    assert code(refusal) == "NS509"
+
+
 def test_a_relative_cache_folder_is_ignored(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", "somewhere")
     monkeypatch.setenv("HOME", str(tmp_path))

@@ -46,6 +46,18 @@ def test_what_cannot_be_read_ends_with_2(tmp_path, monkeypatch, name, capsys):
     assert capsys.readouterr().err.startswith("error[NS601]: cannot read")
 
 
+@pytest.mark.parametrize("text", [SOUND, REFUSED])
+def test_a_file_name_does_not_command_the_terminal(tmp_path, monkeypatch, text, capsys):
+    monkeypatch.chdir(tmp_path)
+    name = "\x1b]0;owned\x07\n.di"
+    (tmp_path / name).write_text(text)
+    run(["check", name, "\x1b[2J.di"])
+    told = "".join(capsys.readouterr())
+    assert "]0;owned" in told
+    assert "[2J.di" in told
+    assert all(line.isprintable() for line in told.splitlines())
+
+
 def test_standard_input_is_a_model_too(stdin, capsys):
     stdin(SOUND.encode())
     assert run(["check", "-"]) == 0
