@@ -6,7 +6,7 @@ from importlib.resources import files
 
 import click
 
-from nsode.cli.terminal import bold, quiet, say
+from nsode.cli.terminal import bold, say
 from nsode.diagnostics import CODES
 
 
@@ -18,7 +18,8 @@ def command(code: str | None) -> None:
         for known, title in CODES.items():
             say(f"{bold(known)}  {title}")
         return
-    say(_page(_known(code)).rstrip("\n"))
+    page = files("nsode").joinpath("catalog", f"{_known(code)}.md")
+    say(page.read_text(encoding="utf-8").rstrip("\n"))
 
 
 def _known(code: str) -> str:
@@ -26,10 +27,3 @@ def _known(code: str) -> str:
     if full not in CODES:
         raise click.BadParameter(f"no code `{code}` (`nsode code` lists them)")
     return full
-
-
-def _page(code: str) -> str:
-    page = files("nsode").joinpath("catalog", f"{code}.md")
-    if page.is_file():
-        return page.read_text(encoding="utf-8")
-    return f"{bold(code)}: {CODES[code]}\n\n{quiet('No more is written about it yet.')}"

@@ -31,10 +31,14 @@ def blocks(page: Path) -> list[str]:
     return _BLOCK.findall(page.read_text(encoding="utf-8"))
 
 
+def test_every_code_has_its_page() -> None:
+    assert {page.stem for page in PAGES} == set(CODES)
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_a_page_has_a_title_an_example_and_its_repair(page: Path) -> None:
     assert page.stem in CODES
-    assert page.read_text(encoding="utf-8").startswith(f"# {page.stem}: ")
+    assert page.read_text(encoding="utf-8").startswith(f"# {page.stem}: {CODES[page.stem]}\n")
     assert page.stem in WITHOUT_EXAMPLE or len(blocks(page)) == 2
 
 
