@@ -87,12 +87,12 @@ class Limits:
     def raised(self, name: str, wanted: int = 0) -> str | None:
         """Return the way out of a limit: its flag, with what is wanted or with twice as much.
 
-        None where it cannot be raised further.
+        None where it cannot be raised that far.
         """
         current: int = getattr(self, name)
         value = wanted if wanted > current else 2 * current
         if name == "depth":
-            value = min(value, DEEPEST)
+            value = min(value, DEEPEST) if wanted <= DEEPEST else 0
         return f"raise the limit with `--limit {name}={value}`" if value > current else None
 
 

@@ -15,17 +15,17 @@ import nsode
 from nsode.cli.terminal import bold, quiet, say
 
 LIBRARIES = {
-    "lark": ("reads models", "pip install lark"),
-    "click": ("the command line", "pip install click"),
-    "numpy": ("arrays", "pip install numpy"),
+    "lark": "reads models",
+    "click": "the command line",
+    "numpy": "arrays",
 }
 OPTIONAL = {
-    "casadi": ("-t casadi, optimization, CVODES", "pip install 'nsode[casadi]'"),
-    "sympy": ("symbols to explore", "pip install 'nsode[sympy]'"),
-    "pint": ("checks units", "pip install 'nsode[units]'"),
-    "scipy": ("its integrators", "pip install 'nsode[scipy]'"),
-    "matplotlib": ("plots", "pip install 'nsode[plot]'"),
-    "ziglang": ("a C compiler from a wheel", "pip install 'nsode[compiler]'"),
+    "casadi": "-t casadi, optimization, CVODES",
+    "sympy": "symbols to explore",
+    "pint": "checks units beside those of SI",
+    "scipy": "its integrators",
+    "matplotlib": "plots",
+    "ziglang": "a C compiler from a wheel",
 }
 COMPILERS = {
     "gcc": ("compiles the C to run it", "apt install gcc"),
@@ -42,12 +42,17 @@ def command() -> None:
 
     say(f"nsode {nsode.__version__} in {Path(nsode.__file__).parent}")
     say(f"python {platform.python_version()}, {platform.system()} {platform.machine()}")
-    _section("libraries", {name: _library(name) for name in LIBRARIES}, LIBRARIES)
-    _section("optional libraries", {name: _library(name) for name in OPTIONAL}, OPTIONAL)
+    _libraries("libraries", LIBRARIES)
+    _libraries("optional libraries", OPTIONAL)
     _section("programs", {name: _program(name) for name in COMPILERS}, COMPILERS)
     if compiler() is None:
         slowly = "CasADi runs them, slowly" if _library("casadi") else "nsode cannot run them"
         say(f"\nno C compiler: models still compile to C, but {slowly}; {WAY_OUT}")
+
+
+def _libraries(title: str, purposes: dict[str, str]) -> None:
+    about = {name: (purpose, f"pip install {name}") for name, purpose in purposes.items()}
+    _section(title, {name: _library(name) for name in purposes}, about)
 
 
 def _section(title: str, found: dict[str, str | None], about: dict[str, tuple[str, str]]) -> None:

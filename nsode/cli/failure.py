@@ -18,14 +18,8 @@ USAGE = 2
 _INTERRUPTED = 130
 _BROKEN_PIPE = 141
 
-#: What an optional library is called in the extras of nsode.
-EXTRAS = {
-    "casadi": "casadi",
-    "sympy": "sympy",
-    "pint": "units",
-    "scipy": "scipy",
-    "matplotlib": "plot",
-}
+#: Libraries that nsode does without until somebody asks for what they do.
+OPTIONAL = ("casadi", "sympy", "pint", "scipy", "matplotlib")
 
 _DEEDS = {"NS601": ("read", "standard input"), "NS602": ("write", "standard output")}
 _OUTSIDE = frozenset({"NS601", "NS602", "NS603"})
@@ -48,7 +42,7 @@ def report(error: BaseException) -> int:
         case BrokenPipeError():
             _let_go_of_stdout()
             return _BROKEN_PIPE
-        case ModuleNotFoundError(name=str(name)) if name in EXTRAS:
+        case ModuleNotFoundError(name=str(name)) if name in OPTIONAL:
             complain([missing(name)])
         case OSError(filename=None):
             complain([io_diagnostic("NS602", error)])
@@ -91,8 +85,7 @@ def io_diagnostic(code: Literal["NS601", "NS602"], error: OSError) -> Diagnostic
 
 def missing(module: str) -> Diagnostic:
     """Return the message for an optional library that is not installed."""
-    way_out = f"pip install 'nsode[{EXTRAS[module]}]'"
-    return Diagnostic("NS603", f"`{module}` is not installed", help=way_out)
+    return Diagnostic("NS603", f"`{module}` is not installed", help=f"`pip install {module}`")
 
 
 def _usage(error: click.UsageError) -> Diagnostic:

@@ -135,7 +135,7 @@ def summary(model: Model) -> str:
     terms = tuple(term for term in model.inclusion.terms if not kept.isdisjoint(term.multiplier))
     added = sum(map(size, ode.auxiliary))
     own = sum(map(size, ode.states)) - added
-    auxiliary = f" + {added} auxiliary" if added else ""
+    auxiliary = f" + {added:,} auxiliary" if added else ""
     return f"{_count(own, 'state')}{auxiliary}, {_terms(terms)}"
 
 

@@ -61,16 +61,11 @@ def _step(term: SetValuedTerm, ode: AugmentedODE) -> Step:
     return Step(
         term,
         ode.source.position(term.span.start).line,
-        _written(ode.source.slice(term.span)),
+        ode.source.on_one_line(term.span),
         values,
         rates,
         NUMBERS.get((term.approximation.law, term.kind)),
     )
-
-
-def _written(text: str) -> str:
-    """Return text of a model on one line, without its comments."""
-    return " ".join(" ".join(line.partition("#")[0] for line in text.splitlines()).split())
 
 
 _Found = tuple[tuple[tuple[tuple[str, ...], Expr], ...], tuple[Rate, ...]]

@@ -280,6 +280,8 @@ class _Course:
         for definition in inclusion.bindings:
             with self.report.collecting():
                 bounds.check(expressions(definition), definition.range)
+                if isinstance(definition, SetValuedTerm):
+                    bounds.check((value for _, value in definition.approximation.constants), None)
         for rate in inclusion.rates:
             with self.report.collecting():
                 bounds.check([rate.value], rate.range)

@@ -27,7 +27,7 @@ from nsode.inclusion.values import (
     shape,
     suffixes,
 )
-from nsode.ode import Check, Input, Parameter, State
+from nsode.ode import Check, Input, Parameter, State, element_names
 from nsode.syntax.ast import (
     Bound,
     ConstantDeclaration,
@@ -182,9 +182,9 @@ class Declarations:
             held = Call(
                 bound.relation, (Name(item.name, at, span=bound.span), limit), span=bound.span
             )
-            broken = [v for v in values if not apply(bound.relation, v, limit.value)]
-            if broken:
-                raise _out_of_bounds(item, broken[0], bound)
+            for name, value in zip(element_names([item]), values, strict=False):
+                if not apply(bound.relation, value, limit.value):
+                    raise _out_of_bounds(item, name, value, bound)
             self.checks.append(Check("bound", held, item.range, "declared", span=bound.span))
 
 
@@ -200,9 +200,9 @@ def _check_one_default(default: Value) -> None:
             )
 
 
-def _out_of_bounds(item: Parameter | Input, value: float, bound: Bound) -> ModelError:
-    labels = (Label(bound.span, "the bound"), Label(item.span, f"is {value:g}"))
-    message = f"the value {value:g} of `{item.name}` breaks its own bound"
+def _out_of_bounds(item: Parameter | Input, name: str, value: float, bound: Bound) -> ModelError:
+    labels = (Label(bound.span, "the bound"), Label(item.span, f"`{name}` is {value:g}"))
+    message = f"the value {value:g} of `{name}` breaks its own bound"
     return ModelError([Diagnostic("NS307", message, labels, help="change the value or the bound")])
 
 

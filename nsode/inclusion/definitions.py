@@ -46,12 +46,15 @@ class Definitions:
     symbols: Symbols
     review: Review
     report: Report
-    hoister: Hoister = field(default_factory=Hoister)
+    hoister: Hoister = field(init=False)
     bindings: list[Binding] = field(default_factory=list)
     terms: list[SetValuedTerm] = field(default_factory=list)
     inline: set[str] = field(default_factory=set)
     forces: list[str] = field(default_factory=list)
     _pending: dict[str, _Pending] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.hoister = Hoister(self.report.source)
 
     @property
     def scope(self) -> Scope:
@@ -68,7 +71,7 @@ class Definitions:
         """Take in ``force``: its outermost term gets its name."""
         declarator = declaration.declarator
         name = declarator.name
-        rest = self.hoister.hoist_force(name, declaration.value, declarator.range)
+        rest = self.hoister.hoist_force(declaration)
         self.forces.append(name.text)
         if rest is not None:
             self._pending[name.text] = _Pending(declarator, rest, declaration.unit, "force")

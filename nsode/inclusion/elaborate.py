@@ -6,8 +6,8 @@ import math
 from dataclasses import replace
 from functools import reduce
 
-from nsode.diagnostics import refuse
-from nsode.expr import FUNCTIONS, TIME, Call, Expr, If, Index, Name, Number, Sum, negate
+from nsode.diagnostics import ModelError, refuse
+from nsode.expr import FUNCTIONS, TIME, Call, Expr, If, Index, IndexRange, Name, Number, Sum, negate
 from nsode.inclusion import values
 from nsode.inclusion.indices import index, index_range
 from nsode.inclusion.report import PoisonedError
@@ -141,15 +141,23 @@ def _name(expr: Name, scope: Scope) -> Value:
         return Index(expr.id, 0, span=expr.span)
     symbol = scope.symbols.find(expr.id, expr.span, also=scope.indices)
     if symbol.range is not None:
-        raise refuse(
-            "NS105",
-            f"`{expr.id}` is a family",
-            expr.span,
-            "which element is meant?",
-            help=f"write `{expr.id}[{symbol.range.variable}]` inside "
-            f"`for {symbol.range.variable} in ...` or `sum(...)`",
-        )
+        raise _which_element(expr, symbol.range, scope)
     return _value(symbol, None, expr)
+
+
+def _which_element(expr: Name, over: IndexRange, scope: Scope) -> ModelError:
+    element = f"`{expr.id}[{over.variable}]` inside `for {over.variable} in ...` or `sum(...)`"
+    if scope.indices:
+        element = f"`{expr.id}[{next(iter(scope.indices))}]`"
+    elif scope.constants:
+        element = f"one element, such as `{expr.id}[{over.first}]`"
+    return refuse(
+        "NS105",
+        f"`{expr.id}` is a family",
+        expr.span,
+        "which element is meant?",
+        help=f"write {element}",
+    )
 
 
 def _value(symbol: Symbol, at: Index | None, expr: Expr) -> Value:

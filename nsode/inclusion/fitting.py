@@ -33,7 +33,7 @@ def declared_shape(declarator: Declarator, scope: Scope) -> Shape | None:
             family = f"declare a family, such as `x[i in 1..{size}]`"
             raise refuse(
                 "NS014",
-                f"a vector of {size} is larger than {limits.vector}",
+                f"a vector of {size:,} is larger than {limits.vector:,}",
                 written.span,
                 help=either(family, limits.raised("vector", size)),
             )

@@ -1,25 +1,20 @@
-"""Every ``dio(psi)`` and ``chi*sgn(theta)`` becomes a term of its own, with chi as written.
-
-chi is the innermost unbracketed product that holds sgn: everything to its left,
-divisions included, and each ``*`` factor to its right up to the first ``/``. This is
-read off the text, before anything is multiplied out, since ``F*sgn(v)/M`` and
-``F/M*sgn(v)`` are one product in algebra and two friction laws in the paper.
-"""
+"""Every ``dio(psi)`` and ``chi*sgn(theta)`` becomes a term of its own, with chi as written."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
-from nsode.expr import FUNCTIONS, Call, Expr, If, Name, Number, rebuild
+from nsode.expr import FUNCTIONS, Call, Expr, If, Name, rebuild
+from nsode.inclusion.products import Friction, Item, flatten, fold, friction, is_sgn
 from nsode.inclusion.symbols import CALLABLE, unknown_function
-from nsode.source import Span
+from nsode.source import Source, Span
 from nsode.syntax.ast import (
     Bracket,
     Component,
+    ForceDeclaration,
     Group,
     Identifier,
     RangeSyntax,
@@ -45,28 +40,21 @@ class RawTerm:
     inline: bool
 
 
-class _Item(NamedTuple):
-    operator: str
-    operand: Expr
-
-
 @dataclass(slots=True)
 class Hoister:
     """Takes set-valued terms out of expressions and keeps them in ``terms``."""
 
+    source: Source
     terms: list[RawTerm] = field(default_factory=list)
-    _range: RangeSyntax | None = None
-    _force: Identifier | None = None
-    _outermost: list[int] = field(default_factory=list)
-    _inside: int = 0
 
     def hoist(self, expr: Expr, range: RangeSyntax | None) -> Expr:
         """Return ``expr`` with a name in the place of each set-valued term."""
-        self._range, self._force, self._inside = range, None, 0
-        with self._all_or_none():
-            return self._visit(expr)
+        walk = _Walk(range)
+        rest = walk.visit(expr)
+        self.terms.extend(walk.terms)
+        return rest
 
-    def hoist_force(self, name: Identifier, expr: Expr, range: RangeSyntax | None) -> Expr | None:
+    def hoist_force(self, declaration: ForceDeclaration) -> Expr | None:
         """Take the one outermost term out of a named force; it gets the force's name.
 
         Returns
@@ -79,233 +67,153 @@ class Hoister:
         ModelError
             NS205 unless there is exactly one outermost set-valued term.
         """
-        self._range, self._force, self._inside = range, name, 0
-        self._outermost = []
-        with self._all_or_none():
-            rest = self._visit(expr)
-        if not self._outermost:
-            for call in _calls(expr):
-                if call.function not in CALLABLE and call.function not in FUNCTIONS:
-                    raise unknown_function(call)
-            raise refuse(
-                "NS205",
-                f"the force `{name.text}` holds no set-valued term",
-                expr.span,
-                "neither `dio` nor `sgn` stands here",
-                help=f"write `let {name.text} = ...`",
-            )
-        at = self._outermost[0]
-        term = self.terms[at]
-        if _bare(rest) == self._place(term):
-            self.terms[at] = replace(term, multiplier=name.text)
-            return None
-        return rest
+        walk = _Walk(declaration.declarator.range, declaration.declarator.name)
+        rest = walk.visit(declaration.value)
+        if not walk.named:
+            raise self._no_term(declaration)
+        [term] = walk.named
+        bare = _bare(rest) == _place(term)
+        self.terms.extend(walk.terms)
+        self.terms.append(replace(term, multiplier=term.name) if bare else term)
+        return None if bare else rest
 
-    @contextmanager
-    def _all_or_none(self) -> Iterator[None]:
-        """Take no term out of an expression that is refused."""
-        before = len(self.terms)
-        try:
-            yield
-        except ModelError:
-            del self.terms[before:]
-            raise
+    def _no_term(self, force: ForceDeclaration) -> ModelError:
+        for call in _calls(force.value):
+            if call.function not in CALLABLE and call.function not in FUNCTIONS:
+                return unknown_function(call)
+        text = self.source.on_one_line(Span(force.declarator.span.start, force.span.end))
+        return refuse(
+            "NS205",
+            f"the force `{force.declarator.name.text}` holds no set-valued term",
+            force.value.span,
+            "neither `dio` nor `sgn` stands here",
+            help=f"write `let {text}`",
+        )
 
-    def _visit(self, expr: Expr) -> Expr:
+
+@dataclass(frozen=True, slots=True)
+class _Walk:
+    """The way through an expression: the terms found, and apart the outermost of a ``force``."""
+
+    range: RangeSyntax | None
+    force: Identifier | None = None
+    terms: list[RawTerm] = field(default_factory=list)
+    named: list[RawTerm] = field(default_factory=list)
+
+    def visit(self, expr: Expr) -> Expr:
+        """Return ``expr`` with a name in the place of each set-valued term."""
         match expr:
             case Call("dio", _):
-                return self._dio(expr)
+                return self._take("dio", expr, None, expr.span)
             case Call("*" | "/", _):
                 return self._product(expr)
-            case _ if _sgn(expr) is not None:
+            case _ if is_sgn(expr):
                 return self._product(expr)
             case Call():
-                return rebuild(expr, self._visit)
+                return rebuild(expr, self.visit)
             case Group(inner):
-                return replace(expr, inner=self._visit(inner))
+                return replace(expr, inner=self.visit(inner))
             case Bracket(items):
-                return replace(expr, items=tuple(self._visit(item) for item in items))
+                return replace(expr, items=tuple(self.visit(item) for item in items))
             case If(condition, then, otherwise):
                 return replace(
                     expr,
-                    condition=self._visit(condition),
-                    then=self._visit(then),
-                    otherwise=self._visit(otherwise),
+                    condition=self.visit(condition),
+                    then=self.visit(then),
+                    otherwise=self.visit(otherwise),
                 )
             case Subscript(base):
-                return replace(expr, base=self._visit(base))
+                return replace(expr, base=self.visit(base))
             case Component(base):
-                return replace(expr, base=self._visit(base))
+                return replace(expr, base=self.visit(base))
             case Reduction():
                 return self._reduction(expr)
         return expr
 
     def _reduction(self, expr: Reduction) -> Expr:
-        outer, self._range = self._range, expr.range
-        before = len(self.terms)
-        body = self._visit(expr.body)
-        self._range = outer
-        if outer is not None and len(self.terms) > before:
+        inside = _Walk(expr.range, self.force)
+        body = inside.visit(expr.body)
+        found = [*inside.terms, *inside.named]
+        if self.range is not None and found:
             raise refuse(
                 "NS105",
                 "a set-valued term cannot have two indices",
-                self.terms[before].span,
-                f"inside both `{outer.variable.text}` and `{expr.range.variable.text}`",
+                found[0].span,
+                f"inside both `{self.range.variable.text}` and `{expr.range.variable.text}`",
                 help="name it: `force N[i in 1..n] = ...`, then sum over `N[i]`",
             )
+        self.terms.extend(inside.terms)
+        for term in inside.named:
+            self._name(term)
         return replace(expr, body=body)
 
-    def _dio(self, expr: Call) -> Expr:
-        return self._place(self._take("dio", expr, None, expr.span))
-
     def _product(self, expr: Expr) -> Expr:
-        items = _flatten(expr)
-        at = next(
-            (k for k, item in enumerate(items) if item.operator != "/" and _sgn(item.operand)), None
-        )
-        if at is None:
-            visited = [_Item(op, self._visit(operand)) for op, operand in items]
-            changed = any(
-                new.operand is not old.operand for new, old in zip(visited, items, strict=True)
-            )
-            return _fold(visited) if changed else expr
-        found = _sgn(items[at].operand)
-        assert found is not None
-        call, wrappers, sign = found
-        end = at + 1
-        while end < len(items) and items[end].operator == "*":
-            end += 1
-        factors = items[:at] + items[at + 1 : end]
-        span = items[0].operand.span.to(items[end - 1].operand.span)
-        factor: Expr = Number(1.0, span=call.span)
-        if factors:
-            stripped = [_strip(item) for item in factors]
-            sign *= _sign(stripped)
-            factor = _fold([item for item, _ in stripped])
-        place = self._place(self._take("sgn", call, factor, span))
-        for wrapper in wrappers:
-            place = replace(wrapper, base=place)
-        if sign < 0:
-            place = Call("neg", (place,), span=span)
-        rest = [_Item(op, self._visit(operand)) for op, operand in items[end:]]
-        return _fold([_Item("", place), *rest])
+        items = flatten(expr)
+        found = friction(items)
+        if found is not None:
+            return fold([Item("", self._sgn(found)), *self._visited(found.behind)])
+        visited = self._visited(items)
+        same = all(new.operand is old.operand for new, old in zip(visited, items, strict=True))
+        return expr if same else fold(visited)
+
+    def _visited(self, items: Sequence[Item]) -> list[Item]:
+        return [Item(operator, self.visit(operand)) for operator, operand in items]
+
+    def _sgn(self, found: Friction) -> Expr:
+        place = self._take("sgn", found.sgn, found.chi, found.span)
+        for part in found.taken:
+            place = replace(part, base=place)
+        return place if found.sign > 0 else Call("neg", (place,), span=found.span)
 
     def _take(
         self, kind: Literal["dio", "sgn"], call: Call, factor: Expr | None, span: Span
-    ) -> RawTerm:
+    ) -> Expr:
+        """Keep a term; return what takes its place."""
         if len(call.args) != 1:
             raise refuse(
                 "NS110", f"`{kind}` takes one argument", call.span, f"here it has {len(call.args)}"
             )
         argument = call.args[0]
-        with self._deeper():
-            before = len(self.terms)
-            self._visit(argument)
-            if len(self.terms) > before:
-                inner = self.terms[before]
-                raise refuse(
-                    "NS204",
-                    f"`{inner.kind}` stands inside the argument of `{kind}`",
-                    inner.span,
-                    "the argument must be continuous",
-                    help="the gap or the sliding velocity is a function of the states alone",
-                )
-            if factor is not None:
-                factor = self._visit(factor)
-        outermost = self._force is not None and self._inside == 0
-        if outermost and self._outermost:
-            raise self._second(span)
+        inside = _Walk(self.range)
+        inside.visit(argument)
+        if inside.terms:
+            raise _nested(kind, inside.terms[0])
+        factor = None if factor is None else inside.visit(factor)
+        self.terms.extend(inside.terms)
         name = multiplier = f"{kind}@{call.span.start}"
-        if outermost and self._force is not None:
-            name, multiplier = self._force.text, f"{self._force.text}.lambda"
-        term = RawTerm(name, kind, argument, factor, multiplier, self._range, span, not outermost)
-        self.terms.append(term)
-        if outermost:
-            self._outermost.append(len(self.terms) - 1)
-        return term
+        if self.force is not None:
+            name, multiplier = self.force.text, f"{self.force.text}.lambda"
+        inline = self.force is None
+        term = RawTerm(name, kind, argument, factor, multiplier, self.range, span, inline)
+        self.terms.append(term) if inline else self._name(term)
+        return _place(term)
 
-    def _second(self, span: Span) -> ModelError:
-        assert self._force is not None
-        first = self.terms[self._outermost[0]]
-        return ModelError(
-            [
-                Diagnostic(
-                    "NS205",
-                    f"the force `{self._force.text}` holds more than one set-valued term",
-                    (Label(span, "a second one"), Label(first.span, "the first")),
-                    help="give each a `force` of its own and add them in a `let`",
-                )
-            ]
-        )
-
-    @contextmanager
-    def _deeper(self) -> Iterator[None]:
-        self._inside += 1
-        try:
-            yield
-        finally:
-            self._inside -= 1
-
-    def _place(self, term: RawTerm) -> Expr:
-        name = Name(term.multiplier, span=term.span)
-        if term.range is None:
-            return name
-        variable = term.range.variable
-        return Subscript(name, Name(variable.text, span=variable.span), span=term.span)
+    def _name(self, term: RawTerm) -> None:
+        """Let a term have the name of the force."""
+        if self.named:
+            labels = (Label(term.span, "a second one"), Label(self.named[0].span, "the first"))
+            message = f"the force `{term.name}` holds more than one set-valued term"
+            way_out = "give each a `force` of its own and add them in a `let`"
+            raise ModelError([Diagnostic("NS205", message, labels, help=way_out)])
+        self.named.append(term)
 
 
-def _flatten(expr: Expr) -> list[_Item]:
-    """Return the factors of an unbracketed product from left to right."""
-    items: list[_Item] = []
-    while isinstance(expr, Call) and expr.function in {"*", "/"}:
-        left, right = expr.args
-        items.append(_Item(expr.function, right))
-        expr = left
-    items.append(_Item("", expr))
-    return items[::-1]
+def _nested(kind: str, inner: RawTerm) -> ModelError:
+    return refuse(
+        "NS204",
+        f"`{inner.kind}` stands inside the argument of `{kind}`",
+        inner.span,
+        "the argument must be continuous",
+        help="the gap or the sliding velocity is a function of the states alone",
+    )
 
 
-def _fold(items: list[_Item]) -> Expr:
-    result = items[0].operand
-    for operator, operand in items[1:]:
-        result = Call(operator, (result, operand), span=result.span.to(operand.span))
-    return result
-
-
-def _sgn(expr: Expr) -> tuple[Call, list[Component | Subscript], int] | None:
-    """Return the sgn that a factor is, with the components taken of it and its sign."""
-    wrappers: list[Component | Subscript] = []
-    sign = 1
-    while True:
-        match expr:
-            case Call("neg", (inner,)):
-                sign = -sign
-                expr = inner
-            case Component(base) | Subscript(base):
-                wrappers.append(expr)
-                expr = base
-            case Call("sgn", _):
-                return expr, wrappers[::-1], sign
-            case _:
-                return None
-
-
-def _strip(item: _Item) -> tuple[_Item, int]:
-    """Return a factor without the signs in front of it, and what they amount to."""
-    operand, sign = item.operand, 1
-    while True:
-        match operand:
-            case Call("neg", (inner,)) | Group(Call("neg", (inner,))):
-                operand, sign = inner, -sign
-            case _:
-                return _Item(item.operator, operand), sign
-
-
-def _sign(stripped: list[tuple[_Item, int]]) -> int:
-    sign = 1
-    for _, one in stripped:
-        sign *= one
-    return sign
+def _place(term: RawTerm) -> Expr:
+    name = Name(term.multiplier, span=term.span)
+    if term.range is None:
+        return name
+    variable = term.range.variable
+    return Subscript(name, Name(variable.text, span=variable.span), span=term.span)
 
 
 def _calls(expr: Expr) -> Iterator[Call]:

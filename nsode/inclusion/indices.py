@@ -98,7 +98,7 @@ def _check_size(count: int, span: Span, limits: Limits) -> None:
     if count > limits.elements:
         raise refuse(
             "NS014",
-            f"{count} elements are more than the limit of {limits.elements}",
+            f"{count:,} elements are more than the limit of {limits.elements:,}",
             span,
             help=either("shorten the range", limits.raised("elements", count)),
         )

@@ -29,7 +29,7 @@ class Constants:
         """Return what is known of a model before a run."""
         values: dict[_Key, float | None] = {}
         for parameter in parameters:
-            values.update(zip(_places(parameter), parameter.values, strict=True))
+            values.update(zip(places(parameter), parameter.values, strict=True))
         return cls({binding.name: binding for binding in bindings}, values)
 
     def of_all(self, exprs: Sequence[Expr], at: _At = _NO_INDEX) -> list[float] | None:
@@ -87,7 +87,8 @@ def _keys(exprs: Sequence[Expr], at: _At) -> Iterator[_Key]:
             yield name.id, None if name.at is None else position(name.at, at)
 
 
-def _places(item: Parameter) -> list[_Key]:
+def places(item: Parameter) -> list[tuple[str, int | None]]:
+    """Return the name of a parameter with the index of each element, None for a scalar."""
     if item.range is None:
         return [(item.name, None)]
     return [(item.name, k) for k in range(item.range.first, item.range.last + 1)]

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
 from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.source import NOWHERE, Source, Span
 from nsode.syntax.parser import in_order
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
 
 
 class PoisonedError(Exception):
@@ -38,6 +42,26 @@ class Collecting:
             case _:
                 return False
         return True
+
+
+def each(change: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
+    """Return every item changed.
+
+    Raises
+    ------
+    ModelError
+        With what is wrong with any of them.
+    """
+    found: list[Result] = []
+    problems: list[Diagnostic] = []
+    for item in items:
+        try:
+            found.append(change(item))
+        except ModelError as error:
+            problems.extend(error.diagnostics)
+    if problems:
+        raise ModelError(problems)
+    return found
 
 
 @dataclass(slots=True)

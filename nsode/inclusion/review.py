@@ -45,7 +45,7 @@ class Review:
             if size > self.limits.operations:
                 raise refuse(
                     "NS011",
-                    f"more than {self.limits.operations} operations when its vectors are "
+                    f"more than {self.limits.operations:,} operations when its vectors are "
                     "written out",
                     component.span,
                     help=either(
@@ -101,7 +101,7 @@ class Review:
         if terms > limits.elements:
             raise refuse(
                 "NS014",
-                f"{terms} terms in sums inside each other are more than {limits.elements}",
+                f"{terms:,} terms in sums inside each other are more than {limits.elements:,}",
                 expr.span,
                 help=either("shorten their ranges", limits.raised("elements", terms)),
             )

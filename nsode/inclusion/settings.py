@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 from nsode.diagnostics import Diagnostic, Label, ModelError, quoted, refuse, suggest
 from nsode.evaluate import evaluate
 from nsode.expr import Expr, Number, names
+from nsode.inclusion.definitions import written_names
 from nsode.inclusion.elaborate import scalar
-from nsode.inclusion.report import PoisonedError
+from nsode.inclusion.report import PoisonedError, each
 from nsode.inclusion.review import Review
 from nsode.inclusion.symbols import Scope
 from nsode.inclusion.units import in_si
@@ -53,8 +54,7 @@ class Approximations:
             if known[0] is not approximation:
                 message = f"the default of `{statement.default}` is given twice"
                 raise _twice(message, statement.span, known[1])
-        for name in statement.elements:
-            self._store(self._element(name).name, approximation, name)
+        each(lambda name: self._store(name, approximation), statement.elements)
 
     def of(self, term: SetValuedTerm) -> Approximation:
         """Return the approximation of an element: its own, its kind's, or the default."""
@@ -62,8 +62,8 @@ class Approximations:
             return self._own[term.name][0]
         return self._defaults[term.kind][0] if term.kind in self._defaults else Approximation()
 
-    def _store(self, key: str, new: Approximation, name: Identifier) -> None:
-        known, first = self._own.setdefault(key, (new, name))
+    def _store(self, name: Identifier, new: Approximation) -> None:
+        known, first = self._own.setdefault(self._element(name).name, (new, name))
         if known is new and (first is name or first.text != name.text):
             return
         message = f"`{name.text}` is approximated twice"
@@ -95,14 +95,15 @@ class Approximations:
 
     def _approximation(self, statement: ApproximateStatement) -> Approximation:
         seen: dict[str, Setting] = {}
-        found: list[tuple[str, Expr]] = []
-        for setting in statement.settings:
+        terms = [self.elements[n.text] for n in statement.elements if n.text in self.elements]
+        indices = {term.range.variable for term in terms if term.range is not None}
+
+        def value(setting: Setting) -> tuple[str, Expr]:
             _check_new(setting, seen)
-            if isinstance(setting.value, Identifier):
-                raise refuse("NS303", f"`{setting.name.text}` wants a number", setting.span)
-            value = scalar(setting.value, self.scope, f"`{setting.name.text}`")
-            self.review.check(value)
-            found.append((setting.name.text, in_si(value, setting.unit)))
+            self._check_one_for_all(setting, indices)
+            return self._setting(setting)
+
+        found = each(value, statement.settings)
         return Approximation(
             "xiong2013" if statement.law is None else statement.law.text,
             tuple(item for item in found if item[0] not in TARGETS),
@@ -110,6 +111,25 @@ class Approximations:
             statement.at_equilibrium,
             span=statement.span,
         )
+
+    def _check_one_for_all(self, setting: Setting, indices: set[str]) -> None:
+        """Refuse a constant that varies over a family."""
+        assert isinstance(setting.value, Expr)
+        read = indices.intersection(written_names(setting.value))
+        for index in read.difference(self.scope.symbols.declared):
+            raise refuse(
+                "NS111",
+                f"`{setting.name.text}` is one number for the whole family",
+                setting.value.span,
+                f"depends on the index `{index}`",
+                help="read one element, such as `k[1]`, or write the elements as separate forces",
+            )
+
+    def _setting(self, setting: Setting) -> tuple[str, Expr]:
+        assert isinstance(setting.value, Expr)
+        value = scalar(setting.value, self.scope, f"`{setting.name.text}`")
+        self.review.check(value)
+        return setting.name.text, in_si(value, setting.unit)
 
 
 def _twice(message: str, span: Span, first: Span) -> ModelError:
@@ -149,33 +169,31 @@ def run(
         raise refuse("NS102", "`simulate` stands twice", statements[1].span, help="keep one")
     statement = statements[0]
     seen: dict[str, Setting] = {}
-    numbers: dict[str, float] = {}
-    method: str | None = None
-    for setting in statement.settings:
+
+    def value(setting: Setting) -> float | str:
         _check_new(setting, seen)
-        if isinstance(setting.value, Identifier):
-            method = setting.value.text
-        else:
-            numbers[setting.name.text] = _positive(setting, setting.value, scope, review)
-    found = Run(
-        numbers.get("duration"),
-        numbers.get("step"),
-        numbers.get("every"),
-        method,
-        span=statement.span,
-    )
+        match setting.value:
+            case Identifier(method):
+                return method
+            case Expr() as written:
+                return _positive(setting, written, scope, review)
+
+    given = dict(zip(seen, each(value, statement.settings), strict=True))
+    method = given.pop("method", None)
+    times = {name: float(number) for name, number in given.items()}
+    found = Run(**times, method=None if method is None else str(method), span=statement.span)
     return found, _remarks(found)
 
 
 def _positive(setting: Setting, value: Expr, scope: Scope, review: Review) -> float:
-    what = setting.name.text
-    written = scalar(value, scope, f"the {what}")
+    what = "the duration" if setting.name.text == "duration" else f"`{setting.name.text}`"
+    written = scalar(value, scope, what)
     review.check(written)
-    found = constant(in_si(written, setting.unit), f"the {what}")
+    found = constant(in_si(written, setting.unit), what)
     if not 0 < found < math.inf:
         raise refuse(
             "NS501",
-            f"the {what} of a run must be a finite number greater than 0",
+            f"{what} must be a finite number greater than 0",
             setting.span,
             f"this is {found:g}",
         )

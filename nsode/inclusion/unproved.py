@@ -17,8 +17,8 @@ def unproved(prover: Prover, term: SetValuedTerm, case: Case, source: Source) ->
     """Return the error for the factor of a term; ``case`` is where its proof fails."""
     factor, culprit = term.factor, _culprit(prover, case)
     assert factor is not None
-    shown = source.slice(factor.span) or "1"
-    argument = source.slice(term.argument[0].span.to(term.argument[-1].span))
+    shown = source.on_one_line(factor.span) or "1"
+    argument = source.on_one_line(term.argument[0].span.to(term.argument[-1].span))
     labels = [Label(factor.span, "this factor may change sign")]
     if not factor.span.start <= culprit.part.span.start < factor.span.end:
         labels.append(Label(culprit.part.span, "because of this"))
@@ -90,7 +90,7 @@ def _reason(prover: Prover, culprit: _Culprit, source: Source) -> str:
             shown, value = _broken(prover, name, culprit)
             return f"the parameter `{shown}` is {value:g}"
         case Name():
-            return f"nothing bounds `{source.slice(culprit.part.span)}` from below"
+            return f"nothing bounds `{source.on_one_line(culprit.part.span)}` from below"
         case Number(value):
             return f"{value:g} is negative"
         case Call("+", _):
@@ -111,7 +111,7 @@ def _broken(prover: Prover, name: Name, culprit: _Culprit) -> tuple[str, float]:
 
 
 def _way_out(prover: Prover, culprit: _Culprit, source: Source) -> str:
-    text = source.slice(culprit.part.span)
+    text = source.on_one_line(culprit.part.span)
     relation = ">" if culprit.wanted == ">" else ">="
     match culprit.part:
         case Name(id) as name if id in prover.parameters:
@@ -121,7 +121,7 @@ def _way_out(prover: Prover, culprit: _Culprit, source: Source) -> str:
             way_out = "divide by something positive" if relation == ">" else f"write `abs({text})`"
             return _or_assume(way_out, f"{text} {relation} 0", culprit)
         case Call("+", (left, Call("neg", (right,)))):
-            above = f"{source.slice(left.span)} >= {source.slice(right.span)}"
+            above = f"{source.on_one_line(left.span)} >= {source.on_one_line(right.span)}"
             return _or_assume(f"write `max(0, {text})`", above, culprit)
     return "write `abs(...)` or `max(0, ...)`, or state `assume ... >= 0` if it always holds"
 

@@ -21,7 +21,8 @@ from nsode.ode import (
     State,
 )
 from nsode.regularizations import law
-from nsode.rewrite.constants import constants, guards
+from nsode.rewrite.conditions import guards
+from nsode.rewrite.constants import by_kind, constants
 from nsode.rewrite.refusals import check_laws
 from nsode.rewrite.velocities import with_velocities
 
@@ -45,7 +46,7 @@ def rewrite(inclusion: DifferentialInclusion) -> AugmentedODE:
     single_valued = replace(
         single_valued,
         parameters=(*inclusion.parameters, *parameters),
-        checks=(*inclusion.checks, *guards(inclusion)),
+        checks=(*inclusion.checks, *guards(by_kind(inclusion))),
     )
     return append(single_valued, [*deformations, *displacements])
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from nsode.diagnostics import Diagnostic, ModelError
 
 #: How to get a compiler, for whoever has none.
-WAY_OUT = "install gcc or clang, name one in CC, or `pip install 'nsode[compiler]'`"
+WAY_OUT = "install gcc or clang, name one in CC, or `pip install ziglang`"
 
 _SYSTEM = ("cc", "gcc", "clang", "tcc")
 _WHEEL = "ziglang"  # Zig, which holds all of clang and needs no headers of the system

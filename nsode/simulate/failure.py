@@ -54,7 +54,7 @@ def cause(
         return Diagnostic("NS113", message, notes=(kept,))
     if found.status >= BROKEN:
         check = ode.checks[found.status - BROKEN]
-        text = " ".join(ode.source.slice(check.span).split())
+        text = ode.source.on_one_line(check.span)
         assumed = check.kind == "assume"
         broken = f"`{text}` was assumed" if assumed else f"{check.reason} is negative"
         return Diagnostic(

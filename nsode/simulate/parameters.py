@@ -12,11 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, quoted, suggest
-from nsode.evaluate import evaluate
-from nsode.expr import Expr, names
-from nsode.ode import AugmentedODE, Check, Parameter, element_names, layout, size
+from nsode.evaluate import evaluate, position
+from nsode.expr import Expr, Name, names
+from nsode.ode import AugmentedODE, Check, Parameter, element, element_names, layout, size
 from nsode.simulate.observe import settled
 
+#: What the index of a family is.
+Sample = Mapping[str, int]
 #: A number, or one for each element of a family.
 Value = float | Sequence[float] | NDArray[np.float64]
 
@@ -42,13 +44,7 @@ def parameters(ode: AugmentedODE, given: Mapping[str, Value]) -> NDArray[np.floa
     ]
     if lacking:
         raise ModelError([_lacking(lacking)], ode.source)
-    broken = [
-        _broken(check, ode, values)
-        for check in ode.checks
-        if settled(check, ode) and not values.hold(check)
-    ]
-    if broken:
-        raise ModelError(broken, ode.source)
+    _check(ode, values)
     return vector
 
 
@@ -104,14 +100,20 @@ class _Values:
 
     def each(self, expr: Expr, over: Parameter | Check) -> list[float]:
         """Return the value of an expression at each index of a range."""
-        if over.range is None:
-            return [evaluate(expr, self._lookup)]
-        variable, first, last = over.range
-        return [evaluate(expr, self._lookup, {variable: k}) for k in range(first, last + 1)]
+        return [evaluate(expr, self._lookup, at) for at in _indices(over)]
 
-    def hold(self, check: Check) -> bool:
-        """Whether a check holds at every index of its range."""
-        return all(self.each(check.condition, check))
+    def breaks(self, check: Check) -> Sample | None:
+        """Return an index at which a check does not hold, None where it holds at each."""
+        for at, held in zip(_indices(check), self.each(check.condition, check), strict=True):
+            if not held:
+                return at
+        return None
+
+    def shown(self, name: Name, at: Sample) -> str:
+        """Return the name of a scalar or of an element, with its value."""
+        k = None if name.at is None else position(name.at, at)
+        shown = name.id if k is None else element(name.id, k)
+        return f"`{shown}` = {self._lookup(name.id, k):g}"
 
     def _lookup(self, name: str, at: int | None) -> float:
         item = self.items[name]
@@ -181,21 +183,38 @@ def _lacking(names: Sequence[str]) -> Diagnostic:
     )
 
 
-def _broken(check: Check, ode: AugmentedODE, values: _Values) -> Diagnostic:
-    read = dict.fromkeys(name.id for name in names(check.condition))
-    shown = ", ".join(f"`{name}` = {_shown(values.of(values.items[name]))}" for name in read)
-    text = " ".join(ode.source.slice(check.span).split())
-    proof = f"{check.reason} (at `{text}`)" if check.reason else f"`{text}` was assumed"
+def _check(ode: AugmentedODE, values: _Values) -> None:
+    """Refuse values that break a check; a factor breaks only where what proves it does too."""
+    broken = [
+        (check, at)
+        for check in ode.checks
+        if settled(check, ode) and (at := values.breaks(check)) is not None
+    ]
+    if broken:
+        causes = [one for one in broken if one[0].kind != "factor"] or broken
+        raise ModelError([_broken(*cause, ode, values) for cause in causes], ode.source)
+
+
+def _broken(check: Check, at: Sample, ode: AugmentedODE, values: _Values) -> Diagnostic:
+    shown = ", ".join(dict.fromkeys(values.shown(name, at) for name in names(check.condition)))
+    text = ode.source.on_one_line(check.span)
+    why = check.reason
+    if check.kind == "assume":
+        why = f"`{text}` is assumed"
+    elif why == "declared":
+        why = f"it is declared `{text}`"
     return Diagnostic(
         "NS307",
-        f"{shown} breaks what the model rests on",
+        f"the model does not hold with {shown}",
         (Label(check.span),),
-        notes=(f"it needs: {proof}",),
+        notes=(why,),
         help="choose values for which it holds",
     )
 
 
-def _shown(values: Sequence[float]) -> str:
-    if len(values) == 1:
-        return f"{values[0]:g}"
-    return f"[{', '.join(f'{value:g}' for value in values[:4])}, ...]"
+def _indices(item: Parameter | Check) -> list[Sample]:
+    """Return each value of an index, or none where there is no index."""
+    if item.range is None:
+        return [{}]
+    variable, first, last = item.range
+    return [{variable: k} for k in range(first, last + 1)]

@@ -90,7 +90,7 @@ def _made(
 def _no_compiler(method: str) -> Diagnostic:
     way_out = WAY_OUT
     if method in REGISTRY:
-        way_out += "; `pip install 'nsode[casadi]'` runs models without, slowly"
+        way_out += "; `pip install casadi` runs models without, slowly"
     return Diagnostic("NS509", "there is no C compiler on this machine", help=way_out)
 
 

@@ -166,7 +166,7 @@ def _unsound(what: str, value: float | None) -> list[Diagnostic]:
 def _unknown(method: str, run: Run | None) -> list[Diagnostic]:
     library = SOLVERS.get(method)
     if library is not None and find_spec(library) is None:
-        way_out = f"pip install 'nsode[{library}]'"
+        way_out = f"`pip install {library}`"
         return [Diagnostic("NS501", f"`{method}` needs `{library}`", help=way_out)]
     if method in methods():
         return []

@@ -148,8 +148,9 @@ def _parse_statement(statement: StatementTokens, limits: Limits) -> ast.Statemen
         raise ModelError(statement.errors)
     tree = parser().parse(statement)
     may_be_deep = len(statement.tokens) > limits.depth
-    if may_be_deep and (place := depth.beyond(tree, limits.depth)):
-        raise ModelError([slips.too_deep(place, limits)])
+    if may_be_deep and (deep := depth.beyond(tree, limits.depth)):
+        notes = ["each factor of a product is one level"] if deep.in_product else []
+        raise ModelError([slips.too_deep(deep.place, deep.deepest, limits, *notes)])
     return tree
 
 
@@ -160,6 +161,6 @@ def in_order(found: Sequence[Diagnostic], limits: Limits) -> list[Diagnostic]:
     if len(errors) <= limits.errors:
         return ordered
     *kept, last = errors[: limits.errors]
-    more = f"{len(errors) - limits.errors} further errors are not shown"
+    more = f"{len(errors) - limits.errors:,} further errors are not shown"
     note = f"{more}: {limits.raised('errors', len(errors))}"
     return [*kept, replace(last, notes=(*last.notes, note))]

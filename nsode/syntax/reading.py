@@ -49,7 +49,7 @@ def decode(name: str, content: bytes, limits: Limits = DEFAULT_LIMITS) -> Source
 
 def too_large(source: Source, limits: Limits) -> ModelError:
     """Return the error for a text beyond ``limits.size``."""
-    message = f"the model is larger than {limits.size} bytes"
+    message = f"the model is larger than {limits.size:,} bytes"
     way_out = "use a family (`state x[i in 1..n]`) instead of copies"
     help_ = either(way_out, limits.raised("size"))
     return ModelError([Diagnostic("NS012", message, help=help_)], source)

@@ -48,6 +48,7 @@ class _Scanner:
         self.open: list[int] = []  # indices in current.tokens of the open brackets
         self.line_start = 0  # index in current.tokens of the first token of the line
         self.signs = 0  # how many signs stand in a row
+        self.deep: tuple[Span, int] | None = None  # where the limit is passed, and how far
 
     def run(self) -> list[StatementTokens]:
         for match in self.vocabulary.pattern.finditer(self.text):
@@ -90,8 +91,7 @@ class _Scanner:
 
     def _count_signs(self, token: Token) -> None:
         self.signs = self.signs + 1 if token.text in ("-", "not") else 0
-        if self.signs == self.limits.depth + 1:
-            self._report(slips.too_deep(token.span, self.limits))
+        self._look_down(token, self.signs)
 
     # brackets
 
@@ -99,8 +99,7 @@ class _Scanner:
         match token.text:
             case "(" | "[":
                 self.open.append(len(self.current.tokens))
-                if len(self.open) == self.limits.depth + 1:
-                    self._report(slips.too_deep(token.span, self.limits))
+                self._look_down(token, len(self.open))
             case ")" | "]":
                 self._close(token)
             case "=" if self.open and self.open[-1] < self.line_start:
@@ -113,6 +112,11 @@ class _Scanner:
         opening = self.current.tokens[self.open.pop()]
         if _CLOSING[opening.text] != token.text:
             self._report(slips.mismatched(opening, token))
+
+    def _look_down(self, token: Token, depth: int) -> None:
+        if depth > self.limits.depth:
+            place, deepest = self.deep or (token.span, depth)
+            self.deep = place, max(deepest, depth)
 
     # lines
 
@@ -135,6 +139,9 @@ class _Scanner:
     def _end_statement(self, why: str) -> None:
         if self.open:
             self._report(slips.unclosed(self.current.tokens[self.open[-1]], why))
+        if self.deep:
+            self._report(slips.too_deep(*self.deep, self.limits))
+            self.deep = None
         if self.current.tokens:
             self.statements.append(self.current)
         self.current = StatementTokens()

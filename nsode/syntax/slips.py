@@ -123,7 +123,7 @@ def name_too_long(name: Token, limits: Limits) -> Diagnostic | None:
         return None
     return Diagnostic(
         "NS010",
-        f"the name {short(name.text)} has {length} characters",
+        f"the name {short(name.text)} has {length:,} characters",
         (Label(name.span, f"at most {limits.name} are allowed"),),
         help=either("shorten it", limits.raised("name", length)),
     )
@@ -155,11 +155,12 @@ def unclosed(opening: Token, why: str) -> Diagnostic:
     return Diagnostic("NS004", f"`{opening.text}` is never closed", (label,))
 
 
-def too_deep(span: Span, limits: Limits) -> Diagnostic:
-    """Return the error for brackets, signs or a tree beyond the limit."""
+def too_deep(place: Span, depth: int, limits: Limits, *notes: str) -> Diagnostic:
+    """Return the error for brackets, signs or a tree of that depth."""
     return Diagnostic(
         "NS011",
-        f"nested deeper than {limits.depth} levels",
-        (Label(span),),
-        help=either("name an intermediate result with `let`", limits.raised("depth")),
+        f"nested {depth:,} levels deep, and {limits.depth} are the limit",
+        (Label(place, f"level {limits.depth + 1}"),),
+        notes,
+        help=either("name an intermediate result with `let`", limits.raised("depth", depth)),
     )

@@ -58,7 +58,7 @@ def test_a_misspelt_name_gets_a_suggestion() -> None:
 
 
 def test_a_misspelt_function_gets_a_suggestion() -> None:
-    [found] = errors(*HEAD, "der(v) = sqr(p)")
+    [found] = errors(*HEAD, "der(v) = sqt(p)")
     assert found.code == "NS104"
     assert found.help == "did you mean `sqrt`?"
 

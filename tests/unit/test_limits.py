@@ -106,7 +106,7 @@ def test_a_flood_of_errors_is_cut_and_none_is_lost(line):
 def test_at_the_greatest_depth_no_flag_is_offered():
     error = refusal(compiling(decay("(" * 120 + "x" + ")" * 120)), Limits(depth=DEEPEST))
     assert flags(error) == {}
-    assert "nested deeper than 100 levels" in str(error)
+    assert "nested 120 levels deep, and 100 are the limit" in str(error)
     assert str(error).endswith("name an intermediate result with `let`")
 
 

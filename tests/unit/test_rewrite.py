@@ -208,3 +208,48 @@ def test_one_set_of_constants_for_a_family() -> None:
     assert states(model)[3:] == ["F[1].a", "F[2].a", "F[3].a"]
     found = rates(model, {"x[1]": 5, "x[3]": 5})
     assert [found[f"x[{i}]"] for i in (1, 2, 3)] == [-1, 0, -3]
+
+
+ROW = (
+    "constant n = 3",
+    "parameter k[i in 1..n] = 100*i^2",
+    "let b[i in 1..n] = (if i > 1 then 1/k[i-1] else mu)/i",
+    "parameter mu = 0.5",
+    "state x[i in 1..n] = 0",
+    "force F[i in 1..n] = sgn(x[i])",
+    "for i in 1..n: der(x[i]) = -F[i]",
+)
+
+
+def test_constants_may_read_elements_of_families() -> None:
+    model = compiled(*ROW, "approximate F: K = k[2] + k[n], beta = b[n] + b[1]")
+    values = dict(zip(element_names(model.ode.parameters), model.p0, strict=True))
+    assert values["F.K"] == 400 + 900
+    assert values["F.beta"] == pytest.approx(1 / 400 / 3 + 0.5)
+    moved = model.with_parameters({"k[2]": 1600, "mu": 1})
+    values = dict(zip(element_names(moved.ode.parameters), moved.p0, strict=True))
+    assert values["F.K"] == 1600 + 900
+    assert values["F.beta"] == pytest.approx(1 / 1600 / 3 + 1)
+
+
+@pytest.mark.parametrize(
+    ("line", "code"),
+    [
+        ("approximate F: K = k[i]", "NS111"),
+        ("approximate F: K = k", "NS105"),
+        ("approximate F: K = k[4]", "NS109"),
+        ("approximate F: K = b[0]", "NS109"),
+        ("approximate F: K = x[1]", "NS111"),
+        ("approximate F: K = j", "NS101"),
+    ],
+)
+def test_a_family_has_one_set_of_constants(line: str, code: str) -> None:
+    assert refused(*ROW, line) == [code]
+
+
+def test_every_setting_that_is_wrong_is_told() -> None:
+    lines = ["approximate F: k = 1, bta = 2, alpha = 3, K = 4", "simulate 0 step -1 every 0"]
+    assert refused(*ROW, lines[0]) == ["NS303"] * 3
+    assert refused(*ROW, lines[1]) == ["NS501"] * 3
+    assert refused(*ROW, "approximate F, G, H: K = 1, K = 2") == ["NS102"]
+    assert refused(*ROW, "approximate F, G, H: K = 1") == ["NS304"] * 2

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import signal
 import threading
 
@@ -284,6 +285,19 @@ def test_an_assumption_is_watched_for_every_element_of_a_family():
             model.simulate(2.5, 1e-2, parameters={"q0": start})
         assert codes(refusal) == ["NS505"]
         assert refusal.value.trajectory.t[-1] == pytest.approx(first, abs=0.02)
+
+
+def test_an_element_that_breaks_a_proof_is_named_once():
+    model = nsode.loads(
+        "model m\nparameter F0[i in 1..3] = i\nstate v[i in 2..3] = 1\n"
+        "force F[k in 2..3] = F0[k-1]*sgn(v[k])\nfor i in 2..3: der(v[i]) = -F[i]\n"
+        "approximate F: K = 1e3*F0[3], beta = 4e-2\n"
+    )
+    assert model.with_parameters({"F0[3]": 2}).ode.parameters[1].values == (2e3,)
+    for given, shown in (({"F0": [1, -2, -3]}, "`F0[2]` = -2"), ({"F0[1]": -1}, "`F0[1]` = -1")):
+        with pytest.raises(ModelError, match=re.escape(f"does not hold with {shown}")) as refusal:
+            model.simulate(1, 1e-3, parameters={**given, "F.K": 1e3})
+        assert codes(refusal) == ["NS307"]
 
 
 def test_a_step_beyond_the_limit_draws_a_warning_and_is_refused_on_demand():

@@ -78,7 +78,7 @@ def test_without_pint_other_units_say_what_to_install(monkeypatch: pytest.Monkey
         "NS114",
         "`furlong` is no SI unit, and pint, which knows others, is not installed",
     )
-    assert help == "install it with `pip install 'nsode[units]'`, or write the value in SI"
+    assert help == "install it with `pip install pint`, or write the value in SI"
 
 
 @pytest.mark.parametrize(

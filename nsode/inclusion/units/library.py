@@ -56,7 +56,7 @@ def look_up(word: str) -> Measure:
     except ImportError:
         raise UnitError(
             f"`{word}` is no SI unit, and pint, which knows others, is not installed",
-            "install it with `pip install 'nsode[units]'`, or write the value in SI",
+            "install it with `pip install pint`, or write the value in SI",
         ) from None
     registry = _registry()
     try:
