@@ -34,7 +34,6 @@ _ELSEWHERE = {
     "pow": "a^b",
     "sign": "sgn(x)",
     "signum": "sgn(x)",
-    "sqr": "x^2",
 }
 
 Derivative = Callable[["Call", "Scope"], Value]
