@@ -182,9 +182,9 @@ class Declarations:
             held = Call(
                 bound.relation, (Name(item.name, at, span=bound.span), limit), span=bound.span
             )
-            for name, value in zip(element_names([item]), values, strict=False):
-                if not apply(bound.relation, value, limit.value):
-                    raise _out_of_bounds(item, name, value, bound)
+            for name, own in zip(element_names([item]), values, strict=False):
+                if not apply(bound.relation, own, limit.value):
+                    raise _out_of_bounds(item, name, own, bound)
             self.checks.append(Check("bound", held, item.range, "declared", span=bound.span))
 
 
@@ -201,7 +201,7 @@ def _check_one_default(default: Value) -> None:
 
 
 def _out_of_bounds(item: Parameter | Input, name: str, value: float, bound: Bound) -> ModelError:
-    labels = (Label(bound.span, "the bound"), Label(item.span, f"`{name}` is {value:g}"))
+    labels = (Label(bound.span, "the bound"), Label(item.span, f"is {value:g}"))
     message = f"the value {value:g} of `{name}` breaks its own bound"
     return ModelError([Diagnostic("NS307", message, labels, help="change the value or the bound")])
 
