@@ -35,7 +35,7 @@ def clone(tmp_path, monkeypatch):
 
 
 def compile_as_told() -> None:
-    [command] = re.findall(r"&& \.venv/bin/nsode (compile .*)", TEXT)
+    [command] = re.findall(r"^\.venv/bin/nsode (compile .*)", TEXT, re.MULTILINE)
     assert run(shlex.split(command)) == 0
 
 
