@@ -97,7 +97,12 @@ def clear() -> Cleared:
 def _opened() -> Path:
     """Return the folder, made if need be, once it is known to be ours alone."""
     home = folder()
-    home.mkdir(mode=0o700, parents=True, exist_ok=True)
+    try:
+        home.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except FileExistsError as error:
+        raise _unsafe(home, "is not a folder") from error
+    except OSError as error:
+        raise _unwritable(home, error) from error
     state = home.lstat()
     if not stat.S_ISDIR(state.st_mode):
         raise _unsafe(home, "is not a folder")
@@ -121,6 +126,11 @@ def _unsafe(home: Path, why: str) -> ModelError:
             )
         ]
     )
+
+
+def _unwritable(home: Path, error: OSError) -> ModelError:
+    message = f"cannot make the build cache `{home}`: {str(error.strerror).lower()}"
+    return ModelError([Diagnostic("NS602", message, help="name a place in XDG_CACHE_HOME")])
 
 
 def _find(home: Path, key: str) -> Path | None:

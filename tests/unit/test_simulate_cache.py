@@ -106,6 +106,14 @@ def test_a_link_in_the_place_of_the_folder_is_refused(home, tmp_path):
         run()
 
 
+def test_a_folder_that_cannot_be_made_is_told_with_the_way_out(home, tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    with pytest.raises(ModelError, match="XDG_CACHE_HOME") as refusal:
+        run()
+    assert code(refusal) == "NS602"
+
+
 def test_two_runs_at_once_build_the_same_and_leave_nothing_half_done(home):
     program = f"import nsode; print(nsode.loads({TEXT!r}).simulate(method='euler')['p'][-1])"
 
