@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from nsode.explain import Explanation
     from nsode.simulate import Trajectory
     from nsode.simulate.inputs import Signal
+    from nsode.simulate.parameters import Value
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -92,7 +93,7 @@ class Model:
 
         return np.array([value for p in self.ode.parameters for value in p.values])
 
-    def with_parameters(self, values: Mapping[str, float | Sequence[float]]) -> Model:
+    def with_parameters(self, values: Mapping[str, Value]) -> Model:
         """Return the model with other parameters, as ``{"N.K": 1e6, "mu": 0.2}``.
 
         Constants that are formulas of what changed follow.
@@ -285,7 +286,7 @@ class Model:
         *,
         every: int | None = None,
         method: str | None = None,
-        parameters: Mapping[str, float | Sequence[float]] | None = None,
+        parameters: Mapping[str, Value] | None = None,
         inputs: Mapping[str, Signal] | None = None,
         x0: Mapping[str, float] | None = None,
         start: float = 0.0,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from nsode.cli.model import with_model
+from nsode.cli.options import with_model
 from nsode.cli.terminal import complain, say
 
 if TYPE_CHECKING:

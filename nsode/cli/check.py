@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import click
 
 from nsode.cli.failure import REFUSED, status_of
-from nsode.cli.model import STANDARD_INPUT, complete_files, limit_option, load, summary
+from nsode.cli.model import STANDARD_INPUT, load, summary
+from nsode.cli.options import complete_files, limit_option
 from nsode.cli.terminal import complain, say
 from nsode.diagnostics import SCHEMA_VERSION, Diagnostic, ModelError, as_json, visible
 from nsode.limits import Limits

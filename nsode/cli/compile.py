@@ -11,8 +11,8 @@ import click
 
 from nsode.backends import TARGETS, Options
 from nsode.cli.failure import writing
-from nsode.cli.model import folder_option, summary, with_model
-from nsode.cli.named import named
+from nsode.cli.model import summary
+from nsode.cli.options import folder_option, named, with_model
 from nsode.cli.terminal import bold, complain, quiet, say, typed
 from nsode.diagnostics import ModelError
 from nsode.ode import Placed

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from nsode.cli.failure import writing
-from nsode.cli.model import with_model
+from nsode.cli.options import with_model
 from nsode.cli.terminal import complain, paints, say
 from nsode.files import write_binary
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from nsode.cli.failure import writing
-from nsode.cli.model import folder_option
+from nsode.cli.options import folder_option
 from nsode.cli.terminal import bold, quiet, say, typed
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.files import create

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from nsode.cli.failure import missing, writing
-from nsode.cli.model import folder_option
+from nsode.cli.options import folder_option
 from nsode.cli.terminal import bold, quiet, say
 from nsode.diagnostics import ModelError
 

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from nsode.cli.failure import missing, writing
-from nsode.cli.model import with_model
-from nsode.cli.named import named
+from nsode.cli.options import named, with_model
 from nsode.cli.progress import Bar
 from nsode.cli.terminal import complain, quiet, say
 from nsode.diagnostics import Diagnostic, ModelError, quoted
