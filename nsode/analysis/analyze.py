@@ -26,6 +26,7 @@ _ALL: Mapping[str, Method] = {**REGISTRY, **SPLITTINGS}
 _RESONANCE = "a load near {0:.3g} rad/s is amplified while it sticks"
 
 
+@np.errstate(all="ignore")
 def analyze(
     inclusion: DifferentialInclusion,
     ode: AugmentedODE,
@@ -68,7 +69,7 @@ def analyze(
     visited += [
         reachable(scene, scene.at(scene.point(x.tolist()), preload(scene, load))) for x in states
     ]
-    why = unknown(scene)
+    why = unknown(scene, local)
     known = why is None
     steps = stable_steps(visited, _ALL if schemes is None else schemes) if known else {}
     sticking = frictions(scene, local, mass)

@@ -7,7 +7,7 @@ from math import isfinite, nan, sqrt
 
 import numpy as np
 
-from nsode.analysis.local import Constants, Element, Local, Scene
+from nsode.analysis.local import ENDLESS, Constants, Element, Local, Scene
 from nsode.analysis.mass import EffectiveMass
 from nsode.analysis.restitution import impact, mapped_restitution
 
@@ -87,7 +87,7 @@ def contacts(
         if element.is_contact
         and given.known
         and degree(element, mass) == 2
-        and inverse_mass(element, mass) > 0
+        and 1 / ENDLESS < inverse_mass(element, mass) < ENDLESS
     )
 
 
@@ -96,7 +96,9 @@ def frictions(scene: Scene, local: Local, mass: EffectiveMass) -> tuple[Friction
     return tuple(
         _friction(element, given, local, mass)
         for element, given in zip(scene.elements, scene.constants, strict=True)
-        if not element.is_contact and given.known and inverse_mass(element, mass) > 0
+        if not element.is_contact
+        and given.known
+        and 1 / ENDLESS < inverse_mass(element, mass) < ENDLESS
     )
 
 

@@ -33,7 +33,8 @@ from nsode.rewrite.constants import constants
 
 #: The law whose active sets, bounces and stick the analysis knows.
 LAW = "xiong2013"
-_ENDLESS = 1e60  # products of a few constants below it are finite
+#: Products of a few numbers below it are finite.
+ENDLESS = 1e60
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,13 +50,13 @@ class Constants:
 
     @property
     def known(self) -> bool:
-        """Whether all constants are given and positive."""
+        """Whether all constants are given, positive, and of use in products of a few."""
         values = (
             (self.stiffness, self.beta)
             if np.isnan(self.alpha)
             else (self.stiffness, self.alpha, self.beta)
         )
-        return all(0 < v < _ENDLESS for v in values)
+        return all(1 / ENDLESS < v < ENDLESS for v in values)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +115,15 @@ class Local:
     @property
     def is_finite(self) -> bool:
         """Whether every number is finite; a singular mass matrix has none that are."""
-        return all(np.isfinite(getattr(self, f.name)).all() for f in fields(self))
+        return self._below(np.inf)
+
+    @property
+    def is_moderate(self) -> bool:
+        """Whether products of a few numbers are finite."""
+        return self._below(ENDLESS)
+
+    def _below(self, limit: float) -> bool:
+        return all((np.abs(getattr(self, f.name)) < limit).all() for f in fields(self))
 
 
 class Scene:

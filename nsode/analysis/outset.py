@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nsode.analysis.local import LAW, Constants, Element, Local, Scene
+from nsode.analysis.local import ENDLESS, LAW, Constants, Element, Local, Scene
 from nsode.analysis.mass import EffectiveMass, effective_mass, static_load
 from nsode.ode import DifferentialInclusion, size
 
@@ -38,10 +38,12 @@ def preload(scene: Scene, load: list[float]) -> np.ndarray:
     return forces
 
 
-def unknown(scene: Scene) -> str | None:
-    """Return why steps cannot be told: an element without constants, or of another law."""
+def unknown(scene: Scene, local: Local) -> str | None:
+    """Return why steps cannot be told: huge numbers, no constants, or another law."""
     if not scene.elements:
         return "the model has no set-valued term"
+    if not local.is_moderate:
+        return f"the rates or their derivatives are beyond {ENDLESS:g}"
     reasons = map(_unknown, scene.elements, scene.constants)
     return next((reason for reason in reasons if reason is not None), None)
 

@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf
 
+import numpy as np
+
+from nsode.analysis import looks
 from nsode.analysis.local import Scene
 from nsode.analysis.mass import feeding
 from nsode.analysis.outset import UNDEFINED, at_start, places, unknown
@@ -37,11 +40,14 @@ class Foreseen:
         matters; None where it is not known.
     unknown : str, optional
         Why it is not known.
+    varies : bool
+        Whether the limit is that of the start only: W depends on the state, time or an input.
     """
 
     diagnostics: tuple[Diagnostic, ...] = ()
     limit: float | None = None
     unknown: str | None = None
+    varies: bool = False
 
 
 def warnings(inclusion: DifferentialInclusion) -> tuple[Diagnostic, ...]:
@@ -53,6 +59,7 @@ def warnings(inclusion: DifferentialInclusion) -> tuple[Diagnostic, ...]:
     return foresee(inclusion).diagnostics
 
 
+@np.errstate(all="ignore")
 def foresee(inclusion: DifferentialInclusion, margin: float = 1.0) -> Foreseen:
     """Return what is known of the model's own step with its own method.
 
@@ -72,22 +79,25 @@ def foresee(inclusion: DifferentialInclusion, margin: float = 1.0) -> Foreseen:
     begin = at_start(scene)
     if begin is None:
         return Foreseen(unknown=UNDEFINED)
-    local, mass, _ = begin
+    local, mass, load = begin
     found = tuple(feeding(scene, mass))
     schemes: Mapping[str, Method] = {**REGISTRY, **SPLITTINGS}
     if step is None or method not in schemes:
         return Foreseen(found, inf)
-    why = unknown(scene)
+    scheme, why = schemes[method], unknown(scene, local)
     if why is not None:
-        return Foreseen(found, unknown=why)
-    scheme = schemes[method]
+        looked = None if isinstance(scheme, Verlet) else looks.limit(scene, local, load, scheme)
+        if looked is None:
+            return Foreseen(found, unknown=why)
+        said = unstable(inclusion, {method: looked})
+        return Foreseen((*found, *said), unknown=f"{why}; a few states were looked at")
     if not isinstance(scheme, Verlet):
         fastest = bound(local, scene.elements, scene.constants)
         if step * fastest <= margin * half_disc(scheme):
             limit = half_disc(scheme) / fastest if fastest else inf
-            return Foreseen((*found, *unresolved(scene, mass)), limit)
+            return Foreseen((*found, *unresolved(scene, mass)), limit, varies=mass.varies)
     steps = stable_steps([reachable(scene, local, most=FEW_SETS)], {method: scheme})
     if method not in steps:
         return Foreseen(found, unknown="no active set has finite modes")
     said = unstable(inclusion, steps) or unresolved(scene, mass)
-    return Foreseen((*found, *said), steps[method].found)
+    return Foreseen((*found, *said), steps[method].found, varies=mass.varies)

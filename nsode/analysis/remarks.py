@@ -22,7 +22,10 @@ _LOOKS = 4  # contacts, each unlike the others, whose impacts are computed
 
 
 def unresolved(scene: Scene, mass: EffectiveMass) -> list[Diagnostic]:
-    """Return a note where a whole step is too long for the impacts of a contact."""
+    """Return NS409 where a whole step is too long for the impacts of a contact.
+
+    It is a note, and a warning where more speed may come back than went in.
+    """
     run = scene.inclusion.run
     scheme = REGISTRY.get(run.method or "rk4")
     if run.step is None or not isinstance(scheme, RungeKutta):
@@ -32,7 +35,7 @@ def unresolved(scene: Scene, mass: EffectiveMass) -> list[Diagnostic]:
         if not (element.is_contact and given.known and degree(element, mass) == 2):
             continue
         frequency = math.sqrt(given.stiffness * max(0.0, inverse_mass(element, mass)))
-        if run.step * frequency > gate(scheme):
+        if gate(scheme) < run.step * frequency < math.inf:
             coarse.setdefault((element.term.name, float(f"{frequency:.3g}")), element.name)
     stiffest = sorted(coarse.items(), key=lambda item: -item[0][1])[:_LOOKS]
     constants = {e.name: c for e, c in zip(scene.elements, scene.constants, strict=True)}
@@ -54,13 +57,15 @@ def _unresolved(
     run = scene.inclusion.run
     term = next(e.term for e in scene.elements if e.name == name)
     seen = f"of the speed before, {least:.3g} to {most:.3g} comes back"
+    why = f"it depends on where in a step the contact begins; {exact:.3g} is exact"
+    gains = most > 1.0
     return Diagnostic(
         "NS409",
         f"a step of {run.step:g} s does not resolve the impacts of `{name}`: {seen}",
         (Label(term.span, "this term"),),
-        notes=(f"it depends on where in a step the contact begins; {exact:.3g} is exact",),
+        notes=(why, "more than all of it is energy from nothing") if gains else (why,),
         help=f"take a step of at most {_below(0.3 / frequency)} {{s}}, or lower `{term.name}.K`",
-        severity="note",
+        severity="warning" if gains else "note",
     )
 
 

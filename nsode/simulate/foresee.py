@@ -68,9 +68,10 @@ def outlook(
     remarks = [_of_signs(d) for d in found.diagnostics if d.code in TOLD]
     if inclusion.run.step != settings.step:  # it stands nowhere in the text
         remarks = [replace(d, labels=()) if d.code == "NS407" else d for d in remarks]
-    if found.unknown is not None:
+    if found.unknown is not None and all(remark.code != "NS407" for remark in remarks):
         remarks.append(_unchecked(found.unknown))
-    certain = found.limit is not None and settings.step <= MARGIN * found.limit
+    known = found.limit is not None and not found.varies
+    certain = known and settings.step <= MARGIN * (found.limit or 0.0)
     # A splitting integrates the books with errors of another kind, which look like gains.
     return Outlook(tuple(remarks), not certain and settings.method not in SPLITTINGS)
 

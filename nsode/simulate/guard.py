@@ -3,7 +3,8 @@
 Along a run, what an element stores equals what it was given less what it dissipated.
 Where a step is too large that no longer holds, and the surplus is energy from nothing.
 The books are kept by further states, integrated with the others; that takes time, so a
-run keeps them only where its step is beyond half of the limit, or that is not known.
+run keeps them only where its step is beyond half of the limit, or where that is not known
+or may be another than at the start: where W varies.
 """
 
 from __future__ import annotations

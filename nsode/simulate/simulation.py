@@ -50,8 +50,8 @@ class Manner:
         Refuse what would draw a warning before the run.
     guard
         Stop where energy comes from nothing. Books are kept where a method of fixed steps
-        takes more than half of its limit, or where that is not known; below half of it,
-        nothing is watched and nothing is paid.
+        takes more than half of its limit, or where that is not known or varies; below half
+        of it, nothing is watched and nothing is paid.
     tell
         Takes warnings and notes; Python warnings unless given.
     progress

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import nsode
 from nsode.analysis.bounces import speeds
+from nsode.analysis.quick import foresee
+from nsode.diagnostics import ModelError
 from nsode.integrators import REGISTRY
+from nsode.ode import Run
 from nsode.simulate import Manner, RunError, RunWarning, Wish, simulate
+from nsode.simulate.foresee import foreseen
 from nsode.simulate.guard import Books, verdict
+from nsode.simulate.settings import settle
 from support.models import MODELS
 
 
@@ -53,16 +59,33 @@ def test_a_step_that_is_stable_but_too_long_for_impacts_is_announced_and_watched
     model = nsode.load(MODELS / "bouncing_mass.di")
     step = 6.1e-3
     assert step < model.analyze().stable_step["rk4"]
-    thrown = model.simulate(10, step, guard=False)
+    with pytest.warns(RunWarning, match="does not resolve the impacts of `f`"):
+        thrown = model.simulate(10, step, guard=False)
     assert thrown["p"].max() > 2  # dropped from 1 m
-    with pytest.raises(RunError) as refusal:
+    with pytest.warns(RunWarning, match="NS409"), pytest.raises(RunError) as refusal:
         model.simulate(10, step)
     assert [d.code for d in refusal.value.diagnostics] == ["NS506"]
-    said = []
-    simulate(
-        model.inclusion, model.ode, Wish(1e-2, step), manner=Manner(strict=True, tell=said.append)
-    )
-    assert "NS409" in [d.code for d in said]
+    with pytest.raises(ModelError, match="more than all of it is energy from nothing"):
+        model.simulate(10, step, strict=True)
+
+
+@pytest.mark.parametrize(("step", "severity"), [(2e-3, "note"), (2.4e-3, "warning")])
+def test_more_speed_than_before_is_a_warning_and_less_of_it_a_note(step, severity):
+    inclusion = nsode.load(MODELS / "bouncing_mass.di").inclusion
+    [said] = foresee(replace(inclusion, run=Run(step=step, method="heun"))).diagnostics
+    assert (said.code, said.severity) == ("NS409", severity)
+
+
+def test_half_of_a_limit_that_varies_along_the_run_is_not_trusted():
+    model = nsode.load(MODELS / "cart_pole.di")
+    assert model.analyze().mass.varies
+    assert foreseen(model.inclusion, model.ode, settings(model), model.p0).doubtful
+    still = nsode.load(MODELS / "rolling_sphere.di")
+    assert not foreseen(still.inclusion, still.ode, settings(still), still.p0).doubtful
+
+
+def settings(model):
+    return settle(Wish(), model.ode.run, 1)[0]
 
 
 def test_an_impact_without_gravity_stays_within_what_the_note_says():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -430,6 +431,20 @@ der(v) = 1e100*N - 1e200
 approximate N: K = 1, alpha = 0.1, beta = 0.2
 """
     np.testing.assert_allclose(nsode.loads(text).analyze().mass.array, [[1e200]])
+
+
+@pytest.mark.parametrize("method", ["rk4", "verlet"])
+@pytest.mark.parametrize("mass", ["1e-300", "1e-200", "1e150", "1e300"])
+@pytest.mark.parametrize("stiffness", ["1e-300", "1e5", "1e59"])
+@pytest.mark.parametrize("beta", ["1e-300", "4e-3", "1e59"])
+def test_no_size_of_the_numbers_breaks_it(mass, stiffness, beta, method):
+    text = BY_NAME["frictional_contact"].read_text()
+    changes = {"M  = 1 ": mass, "K = 1e5": stiffness, "alpha = 2.8e-3": beta, "beta = 4e-3": beta}
+    for old, value in changes.items():
+        text = text.replace(old, f"{old.split('=')[0]}= {value} ")
+    model = nsode.loads(text.replace("method rk4", f"method {method}"))
+    with suppress(ModelError):  # NS406, where the rates have no number of use
+        assert "effective inverse mass" in str(model.analyze())
 
 
 def test_a_run_tells_where_else_the_step_was_looked_at(tmp_path):
