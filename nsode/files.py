@@ -49,7 +49,7 @@ def write_all(files: Mapping[str, str], folder: Path) -> list[Path]:
     targets = [_inside(folder, name) for name in files]
     _make(folder)
     for target in targets:
-        _refuse_folder(target)
+        _refuse_other(target)
     drafts: list[Path] = []
     try:
         for target, text in zip(targets, files.values(), strict=True):
@@ -91,7 +91,7 @@ def write_binary(path: Path, write: Callable[[IO[bytes]], object]) -> None:
         If the file cannot be written; an older one stays as it was.
     """
     _make(path.parent)
-    _refuse_folder(path)
+    _refuse_other(path)
     draft = _draft(path, write)
     try:
         draft.replace(path)
@@ -123,9 +123,12 @@ def _make(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
 
 
-def _refuse_folder(target: Path) -> None:
+def _refuse_other(target: Path) -> None:
+    """Refuse to put a file in the place of a folder, a device or a pipe."""
     if target.is_dir():
         raise IsADirectoryError(errno.EISDIR, "is a folder", str(target))
+    if target.exists() and not target.is_file():
+        raise OSError(errno.EINVAL, "is no regular file", str(target))
 
 
 def _inside(folder: Path, name: str) -> Path:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import stat
 
 import pytest
@@ -105,3 +106,17 @@ def test_a_file_in_the_place_of_the_folder_is_no_folder(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(NotADirectoryError, match="no folder"):
         write_all({"a.c": ""}, tmp_path / "file")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_a_pipe_or_a_device_is_never_replaced(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    (tmp_path / "link").symlink_to(pipe)
+    for name in ("pipe", "link"):
+        with pytest.raises(OSError, match="no regular file"):
+            write_all({name: "text"}, tmp_path)
+        with pytest.raises(OSError, match="no regular file"):
+            write_binary(tmp_path / name, lambda file: file.write(b"text"))
+    assert pipe.is_fifo()
+    assert listing(tmp_path) == ["link", "pipe"]
