@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from nsode.derivative import Entry, Pattern, jacobian, pattern
 from nsode.expr import Expr, IndexRange, Name, Number
 from nsode.ode import AugmentedODE, layout
+from nsode.passes.share import share
 from nsode.passes.split import pieces, settle
 
 
@@ -45,10 +46,11 @@ def sparse_jacobian(ode: AugmentedODE) -> SparseJacobian:
     """Return the Jacobian of an ODE that is not in pieces yet."""
     found = jacobian(ode)
     kept = [piece for n, entry in enumerate(found.entries) for piece in _pieces(entry, n)]
+    bindings, values = share(ode.bindings, found.definitions, [piece.value for piece in kept])
     return SparseJacobian(
-        replace(ode, bindings=(*ode.bindings, *found.definitions)),
+        replace(ode, bindings=tuple(bindings)),
         found.entries,
-        tuple(kept),
+        tuple(replace(p, value=value) for p, value in zip(kept, values, strict=True)),
     )
 
 

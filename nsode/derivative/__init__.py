@@ -6,8 +6,9 @@ derivative is finite: the value of one side, as :mod:`nsode.derivative.rules` st
 """
 
 from nsode.derivative.forward import Row, derivative, tangent, time_derivative, time_derivatives
+from nsode.derivative.places import Pattern, pattern
 from nsode.derivative.rules import Partial, partials
-from nsode.derivative.sparse import Entry, Jacobian, Pattern, jacobian, linearize, pattern
+from nsode.derivative.sparse import Entry, Jacobian, jacobian, linearize
 
 __all__ = [
     "Entry",

@@ -228,8 +228,8 @@ def guarded(conditions: tuple[Expr, ...], value: Expr) -> Expr:
     """Return ``value`` where all conditions hold, else 0."""
     if not conditions:
         return value
-    condition = conditions[0]
-    for further in conditions[1:]:
+    condition, *others = dict.fromkeys(conditions)
+    for further in others:
         condition = _call("and", condition, further)
     return If(condition, value, ZERO, span=value.span)
 

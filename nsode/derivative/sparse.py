@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from math import prod
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from nsode.derivative.forward import Row
 from nsode.derivative.parts import is_small, with_parts
@@ -36,14 +35,8 @@ from nsode.ode import (
     LinearSolve,
     Rate,
     SetValuedTerm,
-    Slot,
     defined,
 )
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
 
 _SHORT = 4  # nodes of a derivative that is not worth a name
 
@@ -63,18 +56,6 @@ class Jacobian:
 
     definitions: tuple[Definition, ...]
     entries: tuple[Entry, ...]
-
-
-class Pattern(NamedTuple):
-    """Compressed columns, and for each entry the place of each of its values.
-
-    ``columns[j]:columns[j+1]`` are the places of column ``j`` in ``rows``. A place of
-    -1 lies outside the matrix, where an ``if`` on the index keeps the value zero.
-    """
-
-    columns: tuple[int, ...]
-    rows: tuple[int, ...]
-    places: tuple[tuple[int, ...], ...]
 
 
 class _Dependence(NamedTuple):
@@ -132,8 +113,7 @@ class _Chain:
     parts: int = 0
 
     def define(self, item: Definition) -> None:
-        for name in defined(item):
-            self.variables[name] = item.range.variable if item.range else None
+        self._note(item)
         match item:
             case Binding(name, value, span):
                 self._define(name, self._parted(name, value, span), span)
@@ -141,6 +121,14 @@ class _Chain:
                 self._define_solve(item)
             case SetValuedTerm():
                 pass
+
+    def _note(self, item: Definition) -> None:
+        for name in defined(item):
+            self.variables[name] = item.range.variable if item.range else None
+
+    def _emit(self, item: Definition) -> None:
+        self._note(item)
+        self.emitted.append(item)
 
     def _define(self, name: str, value: Expr, span: IndexRange | None) -> None:
         bands, spread = self._derive(value, span)
@@ -159,8 +147,7 @@ class _Chain:
         def named(part: Expr) -> Name:
             self.parts += 1
             label = f"{name}.part{self.parts}"
-            self.variables[label] = span.variable if span else None
-            self.emitted.append(Binding(label, part, span, role="part", span=part.span))
+            self._emit(Binding(label, part, span, role="part", span=part.span))
             self._define(label, part, span)
             return _own(label, span)
 
@@ -178,7 +165,7 @@ class _Chain:
         taken = frozenset({span.variable}) if span else frozenset()
         for partial in partials(value, taken, self.moving):
             for key, inner in self._through(partial.name):
-                term = guarded(partial.where, times(partial.coefficient, inner))
+                term = self._guarded(partial, inner)
                 kept, summed_up = _split(partial, key)
                 term = summed(summed_up, term)
                 if kept:
@@ -186,6 +173,18 @@ class _Chain:
                 else:
                     bands.setdefault(key, []).append(term)
         return bands, spread
+
+    def _guarded(self, partial: Partial, inner: Expr) -> Expr:
+        """Multiply by the slope behind a partial, which stays unlooked at in a dead branch.
+
+        One that reads parameters alone may stand outside, so that columns share the branch.
+        """
+        if is_small(partial.coefficient, _SHORT) or not all(map(self._is_given, names(inner))):
+            return guarded(partial.where, times(partial.coefficient, inner))
+        return times(guarded(partial.where, partial.coefficient), inner)
+
+    def _is_given(self, name: Name) -> bool:
+        return name.id not in self.variables and name.id not in self.columns
 
     def _through(self, name: Name) -> Iterator[_Dependence]:
         """Yield what a name depends on, at the element where it is read."""
@@ -207,7 +206,7 @@ class _Chain:
         if is_small(value, _SHORT if span is None else 1) and not _is_element(value):
             return value
         label = derivative_name(name, key)
-        self.emitted.append(Binding(label, value, span, role="part", span=value.span))
+        self._emit(Binding(label, value, span, role="part", span=value.span))
         return _own(label, span)
 
     def _add_hub(self, name: str, spread: list[_Spread], span: IndexRange | None) -> None:
@@ -221,7 +220,7 @@ class _Chain:
             return spread
         (over,) = spread.over
         label = f"{name}.d{number}.{spread.column.id}"
-        self.emitted.append(Binding(label, spread.value, over, role="part"))
+        self._emit(Binding(label, spread.value, over, role="part"))
         return spread._replace(value=_own(label, over))
 
     def _define_solve(self, solve: LinearSolve) -> None:
@@ -247,7 +246,7 @@ class _Chain:
     def _emit_solve(self, solve: LinearSolve, key: Name, values: dict[int, Expr]) -> None:
         labels = tuple(derivative_name(unknown, key) for unknown in solve.unknowns)
         right = tuple(values.get(number, ZERO) for number in range(len(labels)))
-        self.emitted.append(LinearSolve(labels, solve.matrix, right, solve.range, span=solve.span))
+        self._emit(LinearSolve(labels, solve.matrix, right, solve.range, span=solve.span))
         for unknown, label in zip(solve.unknowns, labels, strict=True):
             self.known[unknown].append(_Dependence(key, _own(label, solve.range)))
             self.moving.add(unknown)
@@ -322,69 +321,3 @@ def derivative_name(name: str, by: Name) -> str:
 
 def _signed(offset: int) -> str:
     return f"m{-offset}" if offset < 0 else str(offset)
-
-
-def pattern(entries: Sequence[Entry], rows: dict[str, Slot], columns: dict[str, Slot]) -> Pattern:
-    """Return where the values of the entries stand in compressed columns.
-
-    Parameters
-    ----------
-    entries : sequence of Entry
-        Of one Jacobian.
-    rows, columns : dict of str to Slot
-        The places of the names that are derived, and of those by which they are.
-    """
-    import numpy as np
-
-    height = max((slot.offset + _length(slot) for slot in rows.values()), default=0)
-    width = max((slot.offset + _length(slot) for slot in columns.values()), default=0)
-    spots = [_spots(entry, rows, columns, height) for entry in entries]
-    every = np.concatenate([np.empty(0, dtype=np.int64), *spots])
-    used, place = np.unique(every[every >= 0], return_inverse=True)
-    places = np.full(len(every), -1)
-    places[every >= 0] = place
-    ends = np.cumsum([len(found) for found in spots])
-    return Pattern(
-        tuple(np.searchsorted(used, height * np.arange(width + 1)).tolist()),
-        tuple((used % height if height else used).tolist()),
-        tuple(tuple(part.tolist()) for part in np.split(places, ends)[: len(spots)]),
-    )
-
-
-def _spots(
-    entry: Entry, rows: dict[str, Slot], columns: dict[str, Slot], height: int
-) -> NDArray[np.int64]:
-    """Return ``column*height + row`` of each value in the order of the loops, or -1."""
-    import numpy as np
-
-    at = _grid(entry.ranges)
-    row, row_fits = _place(rows[entry.row.id], entry.row.at, at)
-    column, column_fits = _place(columns[entry.column.id], entry.column.at, at)
-    spot, fits = column * height + row, row_fits & column_fits
-    if not entry.ranges:
-        return np.array([spot if fits else -1])
-    return np.broadcast_to(np.where(fits, spot, -1), prod(map(len, entry.ranges)))
-
-
-def _grid(ranges: tuple[IndexRange, ...]) -> dict[str, NDArray[np.int64]]:
-    """Return the value of each index in the order of the loops."""
-    import numpy as np
-
-    values = (np.arange(span.first, span.last + 1) for span in ranges)
-    grids = np.meshgrid(*values, indexing="ij") if ranges else ()
-    return {span.variable: grid.ravel() for span, grid in zip(ranges, grids, strict=True)}
-
-
-def _place(
-    slot: Slot, at: Index | None, values: dict[str, NDArray[np.int64]]
-) -> tuple[NDArray[np.int64] | int, NDArray[np.bool_] | bool]:
-    """Return places in a vector, and whether they are inside the range."""
-    if slot.range is None or at is None:
-        return slot.offset, True
-    index = at.offset + (values[at.variable] if at.variable is not None else 0)
-    inside = (index >= slot.range.first) & (index <= slot.range.last)
-    return slot.offset + index - slot.range.first, inside
-
-
-def _length(slot: Slot) -> int:
-    return 1 if slot.range is None else len(slot.range)

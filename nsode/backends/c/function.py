@@ -11,7 +11,7 @@ from nsode.backends.c import jacobian, solve
 from nsode.backends.c.expressions import condition, lower
 from nsode.backends.c.plan import Group, Plan, Require, Scatter, Store, Work, plan
 from nsode.backends.c.program import Program, Text, Vector
-from nsode.expr import Expr, Index, IndexRange, Name, Sum
+from nsode.expr import Expr, Index, IndexRange, Name, Sum, walk
 from nsode.ode import Binding, LinearSolve
 
 _LOOP_VARIABLES = "ijk"
@@ -40,7 +40,6 @@ class Writer:
     depth: int = 1
     loops: int = 0
     count: int = 0
-    indexed: bool = False
 
     @property
     def single(self) -> bool:
@@ -153,17 +152,14 @@ class Writer:
                 jacobian.write(work, self)
 
     def _text(self, value: Expr) -> str:
-        """Return the C of a value; what no index and no array comes into is written once."""
-        if self.indices:
-            return lower(value, self)
+        """Return the C of a value; what is the same in every function is lowered once."""
         known = self.program.texts.get(id(value))
-        if known is None:
-            lines = len(self.lines)
-            self.indexed = False
-            known = Text(value, lower(value, self))
-            if len(self.lines) == lines and not self.indexed:
-                self.program.texts[id(value)] = known
-        return known.text
+        if known is not None:
+            return known.text
+        text = lower(value, self)
+        if _is_scalar(value):
+            self.program.texts[id(value)] = Text(value, text)
+        return text
 
     def define(self, name: str, over: IndexRange | None, text: str) -> None:
         """Write the value of a binding where readers look for it."""
@@ -194,7 +190,6 @@ class Writer:
         local = self.program.locals[name.id]
         if name.at is None:
             return local
-        self.indexed = True
         over = self._kept(name.id)
         return local if over is None else f"{local}[{self._place(name.at, over)}]"
 
@@ -222,6 +217,14 @@ class Writer:
     def _added(self, place: str, at: Index, first: int) -> str:
         where = _offset(self._at(at), at.offset - first)
         return place if where == "0" else f"{place} + {where}"
+
+
+def _is_scalar(value: Expr) -> bool:
+    """Whether no loop and no array comes into the C of a value."""
+    return not any(
+        isinstance(node, Sum | Index) or (isinstance(node, Name) and node.at is not None)
+        for node in walk(value)
+    )
 
 
 def wrapped(line: str) -> list[str]:

@@ -178,6 +178,14 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     const real p_F_beta = p[cart_pole_P_F_beta];
     const real p_T_K = p[cart_pole_P_T_K];
     const real p_T_beta = p[cart_pole_P_T_beta];
+    const real b_shared_1 = p_mp*p_l;
+    const real b_shared_2 = p_mc + p_mp;
+    const real b_shared_3 = cos(x_phi);
+    const real b_shared_4 = b_shared_1*b_shared_3;
+    const real b_shared_5 = p_mp*(p_l*p_l);
+    const real b_shared_6 = sin(x_phi);
+    const real b_shared_7 = 1/p_F_beta;
+    const real b_shared_8 = 1/p_T_beta;
     const real b_F_z = x_F_a + p_F_beta*x_v;
     const real b_F_Z = p_Fc/p_F_K;
     const real b_F_s = sat(b_F_Z, b_F_z);
@@ -197,38 +205,38 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     const real b_F_s_d_v = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
     const real b_T_s_d_T_a = fabs(b_T_z) < b_T_Z ? (real)1 : 0;
     const real b_T_s_d_w = fabs(b_T_z) < b_T_Z ? p_T_beta : 0;
-    const real b_v_rate_part1 = p_mp*p_l*(x_w*x_w);
-    const real b_v_rate_part1_d_w = p_mp*p_l*(2*x_w);
-    real matrix3[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
-    real vector4[] = {sin(x_phi)*b_v_rate_part1_d_w, -p_T_K*b_T_s_d_w};
+    const real b_v_rate_part1 = b_shared_1*(x_w*x_w);
+    const real b_v_rate_part1_d_w = b_shared_1*(2*x_w);
+    real matrix3[] = {b_shared_2, b_shared_4, b_shared_4, b_shared_5};
+    real vector4[] = {b_shared_6*b_v_rate_part1_d_w, -p_T_K*b_T_s_d_w};
     if (!solve2(matrix3, vector4)) {
         return cart_pole_SINGULAR;
     }
     const real b_v_rate_d_w = vector4[0];
     const real b_w_rate_d_w = vector4[1];
-    real matrix5[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
-    real vector6[] = {b_v_rate_part1*cos(x_phi) + (-b_w_rate*(p_mp*p_l)*(-sin(x_phi))),
-        -p_mp*p_g*p_l*cos(x_phi) + (-b_v_rate*(p_mp*p_l)*(-sin(x_phi)))};
+    real matrix5[] = {b_shared_2, b_shared_4, b_shared_4, b_shared_5};
+    real vector6[] = {b_v_rate_part1*b_shared_3 + (-b_w_rate*b_shared_1*(-b_shared_6)),
+        -p_mp*p_g*p_l*b_shared_3 + (-b_v_rate*b_shared_1*(-b_shared_6))};
     if (!solve2(matrix5, vector6)) {
         return cart_pole_SINGULAR;
     }
     const real b_v_rate_d_phi = vector6[0];
     const real b_w_rate_d_phi = vector6[1];
-    real matrix7[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
+    real matrix7[] = {b_shared_2, b_shared_4, b_shared_4, b_shared_5};
     real vector8[] = {-p_F_K*b_F_s_d_F_a, 0};
     if (!solve2(matrix7, vector8)) {
         return cart_pole_SINGULAR;
     }
     const real b_v_rate_d_F_a = vector8[0];
     const real b_w_rate_d_F_a = vector8[1];
-    real matrix9[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
+    real matrix9[] = {b_shared_2, b_shared_4, b_shared_4, b_shared_5};
     real vector10[] = {-p_F_K*b_F_s_d_v, 0};
     if (!solve2(matrix9, vector10)) {
         return cart_pole_SINGULAR;
     }
     const real b_v_rate_d_v = vector10[0];
     const real b_w_rate_d_v = vector10[1];
-    real matrix11[] = {p_mc + p_mp, p_mp*p_l*cos(x_phi), p_mp*p_l*cos(x_phi), p_mp*(p_l*p_l)};
+    real matrix11[] = {b_shared_2, b_shared_4, b_shared_4, b_shared_5};
     real vector12[] = {0, -p_T_K*b_T_s_d_T_a};
     if (!solve2(matrix11, vector12)) {
         return cart_pole_SINGULAR;
@@ -247,10 +255,10 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     J[11] = b_w_rate_d_F_a;
     J[4] = b_w_rate_d_v;
     J[14] = b_w_rate_d_T_a;
-    J[12] = 1/p_F_beta*b_F_s_d_F_a - 1/p_F_beta;
-    J[5] = 1/p_F_beta*b_F_s_d_v;
-    J[15] = 1/p_T_beta*b_T_s_d_T_a - 1/p_T_beta;
-    J[9] = 1/p_T_beta*b_T_s_d_w;
+    J[12] = b_shared_7*b_F_s_d_F_a - b_shared_7;
+    J[5] = b_shared_7*b_F_s_d_v;
+    J[15] = b_shared_8*b_T_s_d_T_a - b_shared_8;
+    J[9] = b_shared_8*b_T_s_d_w;
     return cart_pole_OK;
 }
 

@@ -178,35 +178,35 @@ int frictional_contact_jac(real t, const real *x, const real *u, const real *p, 
     const real p_N_beta = p[frictional_contact_P_N_beta];
     const real p_F_K = p[frictional_contact_P_F_K];
     const real p_F_beta = p[frictional_contact_P_F_beta];
+    const real b_shared_1 = 1/p_N_alpha;
+    const real b_shared_2 = -b_shared_1*p_N_beta;
+    const real b_shared_3 = 1/p_F_K*p_mu;
+    const real b_shared_5 = 1/p_M;
+    const real b_shared_7 = 1/p_F_beta;
     const real b_N_psi = x_p_z;
     const real b_N = p_N_K*max0(x_N_e - p_N_beta*(b_N_psi + x_N_e)*(1/p_N_alpha));
     const real b_F_z_x = x_F_a_x + p_F_beta*x_v_x;
     const real b_F_z_y = x_F_a_y + p_F_beta*x_v_y;
+    const real b_shared_4 = norm2(b_F_z_x, b_F_z_y);
     const real b_F_Z = p_mu*b_N*(1/p_F_K);
     const real b_F_shrink = shrink(b_F_Z, norm2(b_F_z_x, b_F_z_y));
-    const real b_N_part1 = x_N_e - p_N_beta*(b_N_psi + x_N_e)*(1/p_N_alpha);
-    const real b_N_part1_d_N_e = 1 + (-1/p_N_alpha*p_N_beta);
-    const real b_N_part1_d_p_z = -1/p_N_alpha*p_N_beta;
+    const real b_N_part1 = x_N_e - p_N_beta*(b_N_psi + x_N_e)*b_shared_1;
+    const real b_N_part1_d_N_e = 1 + b_shared_2;
+    const real b_N_part1_d_p_z = b_shared_2;
     const real b_N_d_N_e = 0 < b_N_part1 ? p_N_K*b_N_part1_d_N_e : 0;
     const real b_N_d_p_z = 0 < b_N_part1 ? p_N_K*b_N_part1_d_p_z : 0;
-    const real b_F_Z_d_N_e = 1/p_F_K*p_mu*b_N_d_N_e;
-    const real b_F_Z_d_p_z = 1/p_F_K*p_mu*b_N_d_p_z;
-    const real b_F_shrink_d_N_e = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 ?
-        1/norm2(b_F_z_x, b_F_z_y)*b_F_Z_d_N_e : 0;
-    const real b_F_shrink_d_p_z = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 ?
-        1/norm2(b_F_z_x, b_F_z_y)*b_F_Z_d_p_z : 0;
-    const real b_F_shrink_d_F_a_x = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0
-        && norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_x/norm2(b_F_z_x, b_F_z_y)) : 0;
-    const real b_F_shrink_d_v_x = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 &&
-        norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_x/norm2(b_F_z_x, b_F_z_y))*p_F_beta : 0;
-    const real b_F_shrink_d_F_a_y = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0
-        && norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_y/norm2(b_F_z_x, b_F_z_y)) : 0;
-    const real b_F_shrink_d_v_y = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 &&
-        norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_y/norm2(b_F_z_x, b_F_z_y))*p_F_beta : 0;
+    const real b_F_Z_d_N_e = b_shared_3*b_N_d_N_e;
+    const real b_F_Z_d_p_z = b_shared_3*b_N_d_p_z;
+    const real b_F_shrink_d_N_e = b_shared_4 >= b_F_Z && b_shared_4 > 0 ? 1/b_shared_4*b_F_Z_d_N_e :
+        0;
+    const real b_F_shrink_d_p_z = b_shared_4 >= b_F_Z && b_shared_4 > 0 ? 1/b_shared_4*b_F_Z_d_p_z :
+        0;
+    const real b_F_shrink_d_F_a_x = b_shared_4 >= b_F_Z && b_shared_4 > 0 ?
+        -b_F_Z/b_shared_4/b_shared_4*(b_F_z_x/b_shared_4) : 0;
+    const real b_F_shrink_d_v_x = b_F_shrink_d_F_a_x*p_F_beta;
+    const real b_F_shrink_d_F_a_y = b_shared_4 >= b_F_Z && b_shared_4 > 0 ?
+        -b_F_Z/b_shared_4/b_shared_4*(b_F_z_y/b_shared_4) : 0;
+    const real b_F_shrink_d_v_y = b_F_shrink_d_F_a_y*p_F_beta;
     const real b_F_s_x_d_F_a_x = b_F_z_x*b_F_shrink_d_F_a_x + b_F_shrink;
     const real b_F_s_x_d_v_x = b_F_z_x*b_F_shrink_d_v_x + b_F_shrink*p_F_beta;
     const real b_F_s_y_d_F_a_y = b_F_z_y*b_F_shrink_d_F_a_y + b_F_shrink;
@@ -220,39 +220,39 @@ int frictional_contact_jac(real t, const real *x, const real *u, const real *p, 
     const real b_F_y_d_F_a_x = p_F_K*(b_F_z_y*b_F_shrink_d_F_a_x);
     const real b_F_y_d_v_x = p_F_K*(b_F_z_y*b_F_shrink_d_v_x);
     const real b_N_e_rate_part2 = -x_N_e*(1/p_N_beta);
-    const real b_N_e_rate_part3 = -(b_N_psi + x_N_e)*(1/p_N_alpha);
+    const real b_N_e_rate_part3 = -(b_N_psi + x_N_e)*b_shared_1;
+    const real b_shared_6 = b_N_e_rate_part2 < b_N_e_rate_part3 ? -b_shared_1 : 0;
     J[6] = 1;
     J[11] = 1;
     J[16] = 1;
-    J[17] = -1/p_M*b_F_x_d_N_e;
-    J[0] = -1/p_M*b_F_x_d_p_z;
-    J[23] = -1/p_M*(p_F_K*b_F_s_x_d_F_a_x);
-    J[7] = -1/p_M*(p_F_K*b_F_s_x_d_v_x);
-    J[27] = -1/p_M*b_F_x_d_F_a_y;
-    J[12] = -1/p_M*b_F_x_d_v_y;
-    J[18] = -1/p_M*b_F_y_d_N_e;
-    J[1] = -1/p_M*b_F_y_d_p_z;
-    J[24] = -1/p_M*b_F_y_d_F_a_x;
-    J[8] = -1/p_M*b_F_y_d_v_x;
-    J[28] = -1/p_M*(p_F_K*b_F_s_y_d_F_a_y);
-    J[13] = -1/p_M*(p_F_K*b_F_s_y_d_v_y);
-    J[19] = 1/p_M*b_N_d_N_e;
-    J[2] = 1/p_M*b_N_d_p_z;
-    J[20] = (b_N_e_rate_part2 >= b_N_e_rate_part3 ? -1/p_N_beta : 0) + (b_N_e_rate_part2 <
-        b_N_e_rate_part3 ? -1/p_N_alpha : 0);
-    J[3] = b_N_e_rate_part2 < b_N_e_rate_part3 ? -1/p_N_alpha : 0;
-    J[21] = 1/p_F_beta*(b_F_z_x*b_F_shrink_d_N_e);
-    J[4] = 1/p_F_beta*(b_F_z_x*b_F_shrink_d_p_z);
-    J[25] = 1/p_F_beta*b_F_s_x_d_F_a_x - 1/p_F_beta;
-    J[9] = 1/p_F_beta*b_F_s_x_d_v_x;
-    J[29] = 1/p_F_beta*(b_F_z_x*b_F_shrink_d_F_a_y);
-    J[14] = 1/p_F_beta*(b_F_z_x*b_F_shrink_d_v_y);
-    J[22] = 1/p_F_beta*(b_F_z_y*b_F_shrink_d_N_e);
-    J[5] = 1/p_F_beta*(b_F_z_y*b_F_shrink_d_p_z);
-    J[26] = 1/p_F_beta*(b_F_z_y*b_F_shrink_d_F_a_x);
-    J[10] = 1/p_F_beta*(b_F_z_y*b_F_shrink_d_v_x);
-    J[30] = 1/p_F_beta*b_F_s_y_d_F_a_y - 1/p_F_beta;
-    J[15] = 1/p_F_beta*b_F_s_y_d_v_y;
+    J[17] = -b_shared_5*b_F_x_d_N_e;
+    J[0] = -b_shared_5*b_F_x_d_p_z;
+    J[23] = -b_shared_5*(p_F_K*b_F_s_x_d_F_a_x);
+    J[7] = -b_shared_5*(p_F_K*b_F_s_x_d_v_x);
+    J[27] = -b_shared_5*b_F_x_d_F_a_y;
+    J[12] = -b_shared_5*b_F_x_d_v_y;
+    J[18] = -b_shared_5*b_F_y_d_N_e;
+    J[1] = -b_shared_5*b_F_y_d_p_z;
+    J[24] = -b_shared_5*b_F_y_d_F_a_x;
+    J[8] = -b_shared_5*b_F_y_d_v_x;
+    J[28] = -b_shared_5*(p_F_K*b_F_s_y_d_F_a_y);
+    J[13] = -b_shared_5*(p_F_K*b_F_s_y_d_v_y);
+    J[19] = b_shared_5*b_N_d_N_e;
+    J[2] = b_shared_5*b_N_d_p_z;
+    J[20] = (b_N_e_rate_part2 >= b_N_e_rate_part3 ? -1/p_N_beta : 0) + b_shared_6;
+    J[3] = b_shared_6;
+    J[21] = b_shared_7*(b_F_z_x*b_F_shrink_d_N_e);
+    J[4] = b_shared_7*(b_F_z_x*b_F_shrink_d_p_z);
+    J[25] = b_shared_7*b_F_s_x_d_F_a_x - b_shared_7;
+    J[9] = b_shared_7*b_F_s_x_d_v_x;
+    J[29] = b_shared_7*(b_F_z_x*b_F_shrink_d_F_a_y);
+    J[14] = b_shared_7*(b_F_z_x*b_F_shrink_d_v_y);
+    J[22] = b_shared_7*(b_F_z_y*b_F_shrink_d_N_e);
+    J[5] = b_shared_7*(b_F_z_y*b_F_shrink_d_p_z);
+    J[26] = b_shared_7*(b_F_z_y*b_F_shrink_d_F_a_x);
+    J[10] = b_shared_7*(b_F_z_y*b_F_shrink_d_v_x);
+    J[30] = b_shared_7*b_F_s_y_d_F_a_y - b_shared_7;
+    J[15] = b_shared_7*b_F_s_y_d_v_y;
     return frictional_contact_OK;
 }
 

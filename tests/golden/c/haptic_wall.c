@@ -166,17 +166,25 @@ int haptic_wall_jac(real t, const real *x, const real *u, const real *p, real *J
     const real p_N_beta = p[haptic_wall_P_N_beta];
     const real p_F_K = p[haptic_wall_P_F_K];
     const real p_F_beta = p[haptic_wall_P_F_beta];
+    const real b_shared_1 = 1/p_N_alpha;
+    const real b_shared_2 = -b_shared_1*p_N_beta;
+    const real b_shared_3 = 1/p_F_K*p_mu;
+    const real b_shared_4 = 1/p_m;
+    const real b_shared_5 = b_shared_4*(-p_k);
+    const real b_shared_6 = b_shared_4*(-p_c);
+    const real b_shared_7 = -b_shared_4*p_b;
+    const real b_shared_9 = 1/p_F_beta;
     const real b_N_psi = x_p_x;
     const real b_N = p_N_K*max0(x_N_e - p_N_beta*(b_N_psi + x_N_e)*(1/p_N_alpha));
     const real b_F_z = x_F_a + p_F_beta*x_v_y;
     const real b_F_Z = p_mu*b_N*(1/p_F_K);
-    const real b_N_part1 = x_N_e - p_N_beta*(b_N_psi + x_N_e)*(1/p_N_alpha);
-    const real b_N_part1_d_N_e = 1 + (-1/p_N_alpha*p_N_beta);
-    const real b_N_part1_d_p_x = -1/p_N_alpha*p_N_beta;
+    const real b_N_part1 = x_N_e - p_N_beta*(b_N_psi + x_N_e)*b_shared_1;
+    const real b_N_part1_d_N_e = 1 + b_shared_2;
+    const real b_N_part1_d_p_x = b_shared_2;
     const real b_N_d_N_e = 0 < b_N_part1 ? p_N_K*b_N_part1_d_N_e : 0;
     const real b_N_d_p_x = 0 < b_N_part1 ? p_N_K*b_N_part1_d_p_x : 0;
-    const real b_F_Z_d_N_e = 1/p_F_K*p_mu*b_N_d_N_e;
-    const real b_F_Z_d_p_x = 1/p_F_K*p_mu*b_N_d_p_x;
+    const real b_F_Z_d_N_e = b_shared_3*b_N_d_N_e;
+    const real b_F_Z_d_p_x = b_shared_3*b_N_d_p_x;
     const real b_F_s_d_F_a = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
     const real b_F_s_d_v_y = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
     const real b_F_s_d_N_e = (b_F_z >= b_F_Z && b_F_z > 0 ? b_F_Z_d_N_e : 0) + (-b_F_z >= b_F_Z &&
@@ -184,24 +192,24 @@ int haptic_wall_jac(real t, const real *x, const real *u, const real *p, real *J
     const real b_F_s_d_p_x = (b_F_z >= b_F_Z && b_F_z > 0 ? b_F_Z_d_p_x : 0) + (-b_F_z >= b_F_Z &&
         b_F_z < 0 ? -b_F_Z_d_p_x : 0);
     const real b_N_e_rate_part2 = -x_N_e*(1/p_N_beta);
-    const real b_N_e_rate_part3 = -(b_N_psi + x_N_e)*(1/p_N_alpha);
+    const real b_N_e_rate_part3 = -(b_N_psi + x_N_e)*b_shared_1;
+    const real b_shared_8 = b_N_e_rate_part2 < b_N_e_rate_part3 ? -b_shared_1 : 0;
     J[5] = 1;
     J[7] = 1;
-    J[0] = 1/p_m*(-p_k) + 1/p_m*b_N_d_p_x;
-    J[6] = 1/p_m*(-p_c) + (-1/p_m*p_b);
-    J[10] = 1/p_m*b_N_d_N_e;
-    J[4] = 1/p_m*(-p_k);
-    J[8] = 1/p_m*(-p_c) + (-1/p_m*p_b) + (-1/p_m*(p_F_K*b_F_s_d_v_y));
-    J[14] = -1/p_m*(p_F_K*b_F_s_d_F_a);
-    J[11] = -1/p_m*(p_F_K*b_F_s_d_N_e);
-    J[1] = -1/p_m*(p_F_K*b_F_s_d_p_x);
-    J[12] = (b_N_e_rate_part2 >= b_N_e_rate_part3 ? -1/p_N_beta : 0) + (b_N_e_rate_part2 <
-        b_N_e_rate_part3 ? -1/p_N_alpha : 0);
-    J[2] = b_N_e_rate_part2 < b_N_e_rate_part3 ? -1/p_N_alpha : 0;
-    J[15] = 1/p_F_beta*b_F_s_d_F_a - 1/p_F_beta;
-    J[9] = 1/p_F_beta*b_F_s_d_v_y;
-    J[13] = 1/p_F_beta*b_F_s_d_N_e;
-    J[3] = 1/p_F_beta*b_F_s_d_p_x;
+    J[0] = b_shared_5 + b_shared_4*b_N_d_p_x;
+    J[6] = b_shared_6 + b_shared_7;
+    J[10] = b_shared_4*b_N_d_N_e;
+    J[4] = b_shared_5;
+    J[8] = b_shared_6 + b_shared_7 + (-b_shared_4*(p_F_K*b_F_s_d_v_y));
+    J[14] = -b_shared_4*(p_F_K*b_F_s_d_F_a);
+    J[11] = -b_shared_4*(p_F_K*b_F_s_d_N_e);
+    J[1] = -b_shared_4*(p_F_K*b_F_s_d_p_x);
+    J[12] = (b_N_e_rate_part2 >= b_N_e_rate_part3 ? -1/p_N_beta : 0) + b_shared_8;
+    J[2] = b_shared_8;
+    J[15] = b_shared_9*b_F_s_d_F_a - b_shared_9;
+    J[9] = b_shared_9*b_F_s_d_v_y;
+    J[13] = b_shared_9*b_F_s_d_N_e;
+    J[3] = b_shared_9*b_F_s_d_p_x;
     return haptic_wall_OK;
 }
 

@@ -218,43 +218,43 @@ int rolling_sphere_jac(real t, const real *x, const real *u, const real *p, real
     const real p_N_beta = p[rolling_sphere_P_N_beta];
     const real p_F_K = p[rolling_sphere_P_F_K];
     const real p_F_beta = p[rolling_sphere_P_F_beta];
+    const real b_shared_1 = 1/p_N_alpha;
+    const real b_shared_2 = -b_shared_1*p_N_beta;
+    const real b_shared_3 = 1/p_F_K*p_mu;
+    const real b_shared_5 = 1/p_M;
+    const real b_shared_6 = 1/((real)2/5*p_M*(p_R*p_R));
+    const real b_shared_7 = b_shared_6*p_R;
+    const real b_shared_8 = -b_shared_6*p_R;
+    const real b_shared_9 = (real)1/2*x_q_1;
+    const real b_shared_11 = 1/p_F_beta;
     const real b_slip_x = x_v_x - p_R*x_w_y;
     const real b_slip_y = x_v_y + p_R*x_w_x;
     const real b_N_psi = x_p_z - p_R;
     const real b_N = p_N_K*max0(x_N_e - p_N_beta*(b_N_psi + x_N_e)*(1/p_N_alpha));
     const real b_F_z_x = x_F_a_x + p_F_beta*b_slip_x;
     const real b_F_z_y = x_F_a_y + p_F_beta*b_slip_y;
+    const real b_shared_4 = norm2(b_F_z_x, b_F_z_y);
     const real b_F_Z = p_mu*b_N*(1/p_F_K);
     const real b_F_shrink = shrink(b_F_Z, norm2(b_F_z_x, b_F_z_y));
-    const real b_N_part1 = x_N_e - p_N_beta*(b_N_psi + x_N_e)*(1/p_N_alpha);
-    const real b_N_part1_d_N_e = 1 + (-1/p_N_alpha*p_N_beta);
-    const real b_N_part1_d_p_z = -1/p_N_alpha*p_N_beta;
+    const real b_N_part1 = x_N_e - p_N_beta*(b_N_psi + x_N_e)*b_shared_1;
+    const real b_N_part1_d_N_e = 1 + b_shared_2;
+    const real b_N_part1_d_p_z = b_shared_2;
     const real b_N_d_N_e = 0 < b_N_part1 ? p_N_K*b_N_part1_d_N_e : 0;
     const real b_N_d_p_z = 0 < b_N_part1 ? p_N_K*b_N_part1_d_p_z : 0;
-    const real b_F_Z_d_N_e = 1/p_F_K*p_mu*b_N_d_N_e;
-    const real b_F_Z_d_p_z = 1/p_F_K*p_mu*b_N_d_p_z;
-    const real b_F_shrink_d_N_e = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 ?
-        1/norm2(b_F_z_x, b_F_z_y)*b_F_Z_d_N_e : 0;
-    const real b_F_shrink_d_p_z = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 ?
-        1/norm2(b_F_z_x, b_F_z_y)*b_F_Z_d_p_z : 0;
-    const real b_F_shrink_d_F_a_x = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0
-        && norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_x/norm2(b_F_z_x, b_F_z_y)) : 0;
-    const real b_F_shrink_d_v_x = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 &&
-        norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_x/norm2(b_F_z_x, b_F_z_y))*p_F_beta : 0;
-    const real b_F_shrink_d_w_y = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 &&
-        norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_x/norm2(b_F_z_x, b_F_z_y))*(p_F_beta*(-p_R)) : 0;
-    const real b_F_shrink_d_F_a_y = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0
-        && norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_y/norm2(b_F_z_x, b_F_z_y)) : 0;
-    const real b_F_shrink_d_v_y = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 &&
-        norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_y/norm2(b_F_z_x, b_F_z_y))*p_F_beta : 0;
-    const real b_F_shrink_d_w_x = norm2(b_F_z_x, b_F_z_y) >= b_F_Z && norm2(b_F_z_x, b_F_z_y) > 0 &&
-        norm2(b_F_z_x, b_F_z_y) > 0 ? -b_F_Z/norm2(b_F_z_x, b_F_z_y)/norm2(b_F_z_x,
-        b_F_z_y)*(b_F_z_y/norm2(b_F_z_x, b_F_z_y))*(p_F_beta*p_R) : 0;
+    const real b_F_Z_d_N_e = b_shared_3*b_N_d_N_e;
+    const real b_F_Z_d_p_z = b_shared_3*b_N_d_p_z;
+    const real b_F_shrink_d_N_e = b_shared_4 >= b_F_Z && b_shared_4 > 0 ? 1/b_shared_4*b_F_Z_d_N_e :
+        0;
+    const real b_F_shrink_d_p_z = b_shared_4 >= b_F_Z && b_shared_4 > 0 ? 1/b_shared_4*b_F_Z_d_p_z :
+        0;
+    const real b_F_shrink_d_F_a_x = b_shared_4 >= b_F_Z && b_shared_4 > 0 ?
+        -b_F_Z/b_shared_4/b_shared_4*(b_F_z_x/b_shared_4) : 0;
+    const real b_F_shrink_d_v_x = b_F_shrink_d_F_a_x*p_F_beta;
+    const real b_F_shrink_d_w_y = b_F_shrink_d_F_a_x*(p_F_beta*(-p_R));
+    const real b_F_shrink_d_F_a_y = b_shared_4 >= b_F_Z && b_shared_4 > 0 ?
+        -b_F_Z/b_shared_4/b_shared_4*(b_F_z_y/b_shared_4) : 0;
+    const real b_F_shrink_d_v_y = b_F_shrink_d_F_a_y*p_F_beta;
+    const real b_F_shrink_d_w_x = b_F_shrink_d_F_a_y*(p_F_beta*p_R);
     const real b_F_s_x_d_F_a_x = b_F_z_x*b_F_shrink_d_F_a_x + b_F_shrink;
     const real b_F_s_x_d_v_x = b_F_z_x*b_F_shrink_d_v_x + b_F_shrink*p_F_beta;
     const real b_F_s_x_d_w_y = b_F_z_x*b_F_shrink_d_w_y + b_F_shrink*(p_F_beta*(-p_R));
@@ -272,51 +272,52 @@ int rolling_sphere_jac(real t, const real *x, const real *u, const real *p, real
     const real b_F_y_d_v_x = p_F_K*(b_F_z_y*b_F_shrink_d_v_x);
     const real b_F_y_d_w_y = p_F_K*(b_F_z_y*b_F_shrink_d_w_y);
     const real b_N_e_rate_part2 = -x_N_e*(1/p_N_beta);
-    const real b_N_e_rate_part3 = -(b_N_psi + x_N_e)*(1/p_N_alpha);
+    const real b_N_e_rate_part3 = -(b_N_psi + x_N_e)*b_shared_1;
+    const real b_shared_10 = b_N_e_rate_part2 < b_N_e_rate_part3 ? -b_shared_1 : 0;
     J[8] = 1;
     J[15] = 1;
     J[22] = 1;
-    J[59] = 1/p_M*(-b_F_x_d_N_e);
-    J[0] = 1/p_M*(-b_F_x_d_p_z);
-    J[67] = 1/p_M*(-p_F_K*b_F_s_x_d_F_a_x);
-    J[9] = 1/p_M*(-p_F_K*b_F_s_x_d_v_x);
-    J[33] = 1/p_M*(-p_F_K*b_F_s_x_d_w_y);
-    J[73] = 1/p_M*(-b_F_x_d_F_a_y);
-    J[16] = 1/p_M*(-b_F_x_d_v_y);
-    J[23] = 1/p_M*(-b_F_x_d_w_x);
-    J[60] = 1/p_M*(-b_F_y_d_N_e);
-    J[1] = 1/p_M*(-b_F_y_d_p_z);
-    J[68] = 1/p_M*(-b_F_y_d_F_a_x);
-    J[10] = 1/p_M*(-b_F_y_d_v_x);
-    J[34] = 1/p_M*(-b_F_y_d_w_y);
-    J[74] = 1/p_M*(-p_F_K*b_F_s_y_d_F_a_y);
-    J[17] = 1/p_M*(-p_F_K*b_F_s_y_d_v_y);
-    J[24] = 1/p_M*(-p_F_K*b_F_s_y_d_w_x);
-    J[61] = 1/p_M*b_N_d_N_e;
-    J[2] = 1/p_M*b_N_d_p_z;
-    J[62] = 1/((real)2/5*p_M*(p_R*p_R))*p_R*(-b_F_y_d_N_e);
-    J[3] = 1/((real)2/5*p_M*(p_R*p_R))*p_R*(-b_F_y_d_p_z);
-    J[69] = 1/((real)2/5*p_M*(p_R*p_R))*p_R*(-b_F_y_d_F_a_x);
-    J[11] = 1/((real)2/5*p_M*(p_R*p_R))*p_R*(-b_F_y_d_v_x);
-    J[35] = 1/((real)2/5*p_M*(p_R*p_R))*p_R*(-b_F_y_d_w_y);
-    J[75] = 1/((real)2/5*p_M*(p_R*p_R))*p_R*(-p_F_K*b_F_s_y_d_F_a_y);
-    J[18] = 1/((real)2/5*p_M*(p_R*p_R))*p_R*(-p_F_K*b_F_s_y_d_v_y);
-    J[25] = 1/((real)2/5*p_M*(p_R*p_R))*p_R*(-p_F_K*b_F_s_y_d_w_x);
-    J[63] = -1/((real)2/5*p_M*(p_R*p_R))*p_R*(-b_F_x_d_N_e);
-    J[4] = -1/((real)2/5*p_M*(p_R*p_R))*p_R*(-b_F_x_d_p_z);
-    J[70] = -1/((real)2/5*p_M*(p_R*p_R))*p_R*(-p_F_K*b_F_s_x_d_F_a_x);
-    J[12] = -1/((real)2/5*p_M*(p_R*p_R))*p_R*(-p_F_K*b_F_s_x_d_v_x);
-    J[36] = -1/((real)2/5*p_M*(p_R*p_R))*p_R*(-p_F_K*b_F_s_x_d_w_y);
-    J[76] = -1/((real)2/5*p_M*(p_R*p_R))*p_R*(-b_F_x_d_F_a_y);
-    J[19] = -1/((real)2/5*p_M*(p_R*p_R))*p_R*(-b_F_x_d_v_y);
-    J[26] = -1/((real)2/5*p_M*(p_R*p_R))*p_R*(-b_F_x_d_w_x);
+    J[59] = b_shared_5*(-b_F_x_d_N_e);
+    J[0] = b_shared_5*(-b_F_x_d_p_z);
+    J[67] = b_shared_5*(-p_F_K*b_F_s_x_d_F_a_x);
+    J[9] = b_shared_5*(-p_F_K*b_F_s_x_d_v_x);
+    J[33] = b_shared_5*(-p_F_K*b_F_s_x_d_w_y);
+    J[73] = b_shared_5*(-b_F_x_d_F_a_y);
+    J[16] = b_shared_5*(-b_F_x_d_v_y);
+    J[23] = b_shared_5*(-b_F_x_d_w_x);
+    J[60] = b_shared_5*(-b_F_y_d_N_e);
+    J[1] = b_shared_5*(-b_F_y_d_p_z);
+    J[68] = b_shared_5*(-b_F_y_d_F_a_x);
+    J[10] = b_shared_5*(-b_F_y_d_v_x);
+    J[34] = b_shared_5*(-b_F_y_d_w_y);
+    J[74] = b_shared_5*(-p_F_K*b_F_s_y_d_F_a_y);
+    J[17] = b_shared_5*(-p_F_K*b_F_s_y_d_v_y);
+    J[24] = b_shared_5*(-p_F_K*b_F_s_y_d_w_x);
+    J[61] = b_shared_5*b_N_d_N_e;
+    J[2] = b_shared_5*b_N_d_p_z;
+    J[62] = b_shared_7*(-b_F_y_d_N_e);
+    J[3] = b_shared_7*(-b_F_y_d_p_z);
+    J[69] = b_shared_7*(-b_F_y_d_F_a_x);
+    J[11] = b_shared_7*(-b_F_y_d_v_x);
+    J[35] = b_shared_7*(-b_F_y_d_w_y);
+    J[75] = b_shared_7*(-p_F_K*b_F_s_y_d_F_a_y);
+    J[18] = b_shared_7*(-p_F_K*b_F_s_y_d_v_y);
+    J[25] = b_shared_7*(-p_F_K*b_F_s_y_d_w_x);
+    J[63] = b_shared_8*(-b_F_x_d_N_e);
+    J[4] = b_shared_8*(-b_F_x_d_p_z);
+    J[70] = b_shared_8*(-p_F_K*b_F_s_x_d_F_a_x);
+    J[12] = b_shared_8*(-p_F_K*b_F_s_x_d_v_x);
+    J[36] = b_shared_8*(-p_F_K*b_F_s_x_d_w_y);
+    J[76] = b_shared_8*(-b_F_x_d_F_a_y);
+    J[19] = b_shared_8*(-b_F_x_d_v_y);
+    J[26] = b_shared_8*(-b_F_x_d_w_x);
     J[27] = -(real)1/2*x_q_2;
     J[50] = -(real)1/2*x_w_x;
     J[37] = -(real)1/2*x_q_3;
     J[53] = -(real)1/2*x_w_y;
     J[43] = -(real)1/2*x_q_4;
     J[56] = -(real)1/2*x_w_z;
-    J[28] = (real)1/2*x_q_1;
+    J[28] = b_shared_9;
     J[47] = (real)1/2*x_w_x;
     J[38] = (real)1/2*x_q_4;
     J[57] = (real)1/2*x_w_y;
@@ -324,7 +325,7 @@ int rolling_sphere_jac(real t, const real *x, const real *u, const real *p, real
     J[54] = -(real)1/2*x_w_z;
     J[29] = -(real)1/2*x_q_4;
     J[58] = -(real)1/2*x_w_x;
-    J[39] = (real)1/2*x_q_1;
+    J[39] = b_shared_9;
     J[48] = (real)1/2*x_w_y;
     J[45] = (real)1/2*x_q_2;
     J[51] = (real)1/2*x_w_z;
@@ -332,27 +333,26 @@ int rolling_sphere_jac(real t, const real *x, const real *u, const real *p, real
     J[55] = (real)1/2*x_w_x;
     J[40] = -(real)1/2*x_q_2;
     J[52] = -(real)1/2*x_w_y;
-    J[46] = (real)1/2*x_q_1;
+    J[46] = b_shared_9;
     J[49] = (real)1/2*x_w_z;
-    J[64] = (b_N_e_rate_part2 >= b_N_e_rate_part3 ? -1/p_N_beta : 0) + (b_N_e_rate_part2 <
-        b_N_e_rate_part3 ? -1/p_N_alpha : 0);
-    J[5] = b_N_e_rate_part2 < b_N_e_rate_part3 ? -1/p_N_alpha : 0;
-    J[65] = 1/p_F_beta*(b_F_z_x*b_F_shrink_d_N_e);
-    J[6] = 1/p_F_beta*(b_F_z_x*b_F_shrink_d_p_z);
-    J[71] = 1/p_F_beta*b_F_s_x_d_F_a_x - 1/p_F_beta;
-    J[13] = 1/p_F_beta*b_F_s_x_d_v_x;
-    J[41] = 1/p_F_beta*b_F_s_x_d_w_y;
-    J[77] = 1/p_F_beta*(b_F_z_x*b_F_shrink_d_F_a_y);
-    J[20] = 1/p_F_beta*(b_F_z_x*b_F_shrink_d_v_y);
-    J[31] = 1/p_F_beta*(b_F_z_x*b_F_shrink_d_w_x);
-    J[66] = 1/p_F_beta*(b_F_z_y*b_F_shrink_d_N_e);
-    J[7] = 1/p_F_beta*(b_F_z_y*b_F_shrink_d_p_z);
-    J[72] = 1/p_F_beta*(b_F_z_y*b_F_shrink_d_F_a_x);
-    J[14] = 1/p_F_beta*(b_F_z_y*b_F_shrink_d_v_x);
-    J[42] = 1/p_F_beta*(b_F_z_y*b_F_shrink_d_w_y);
-    J[78] = 1/p_F_beta*b_F_s_y_d_F_a_y - 1/p_F_beta;
-    J[21] = 1/p_F_beta*b_F_s_y_d_v_y;
-    J[32] = 1/p_F_beta*b_F_s_y_d_w_x;
+    J[64] = (b_N_e_rate_part2 >= b_N_e_rate_part3 ? -1/p_N_beta : 0) + b_shared_10;
+    J[5] = b_shared_10;
+    J[65] = b_shared_11*(b_F_z_x*b_F_shrink_d_N_e);
+    J[6] = b_shared_11*(b_F_z_x*b_F_shrink_d_p_z);
+    J[71] = b_shared_11*b_F_s_x_d_F_a_x - b_shared_11;
+    J[13] = b_shared_11*b_F_s_x_d_v_x;
+    J[41] = b_shared_11*b_F_s_x_d_w_y;
+    J[77] = b_shared_11*(b_F_z_x*b_F_shrink_d_F_a_y);
+    J[20] = b_shared_11*(b_F_z_x*b_F_shrink_d_v_y);
+    J[31] = b_shared_11*(b_F_z_x*b_F_shrink_d_w_x);
+    J[66] = b_shared_11*(b_F_z_y*b_F_shrink_d_N_e);
+    J[7] = b_shared_11*(b_F_z_y*b_F_shrink_d_p_z);
+    J[72] = b_shared_11*(b_F_z_y*b_F_shrink_d_F_a_x);
+    J[14] = b_shared_11*(b_F_z_y*b_F_shrink_d_v_x);
+    J[42] = b_shared_11*(b_F_z_y*b_F_shrink_d_w_y);
+    J[78] = b_shared_11*b_F_s_y_d_F_a_y - b_shared_11;
+    J[21] = b_shared_11*b_F_s_y_d_v_y;
+    J[32] = b_shared_11*b_F_s_y_d_w_x;
     return rolling_sphere_OK;
 }
 
