@@ -11,14 +11,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from itertools import chain, pairwise
-from math import ceil, floor, isfinite
+from math import ceil, floor
 
 from nsode.expr import (
     FUNCTIONS,
     Call,
     Expr,
     If,
-    Index,
     IndexRange,
     Number,
     Sum,
@@ -37,11 +36,11 @@ from nsode.ode import (
     Rate,
     State,
 )
+from nsode.passes.affine import difference
 from nsode.passes.expressions import map_definition, map_rate
 
 #: One element of the piece at hand, for each index variable in scope.
 Sample = Mapping[str, int]
-_Affine = dict[str | None, Fraction]
 
 _OUTSIDE: Sample = {}
 _COMPARISONS = {"<", "<=", ">", ">=", "==", "!="}
@@ -209,10 +208,10 @@ def _collect_cuts(expr: Expr, over: IndexRange, cuts: set[int]) -> None:
 
 def _root(left: Expr, right: Expr, variable: str) -> Fraction | None:
     """Return where ``left - right`` is zero if it is affine in this variable alone."""
-    difference = _difference(left, right)
-    if difference is None or set(difference) != {None, variable}:
+    form = difference(left, right)
+    if form is None or set(form) != {None, variable}:
         return None
-    return -difference[None] / difference[variable]
+    return -form[None] / form[variable]
 
 
 def _resolve(expr: Expr, sample: Sample) -> Expr:
@@ -269,14 +268,14 @@ def _rebuilt(expr: Expr, sample: Sample) -> Expr:
 
 
 def _compare(function: str, left: Expr, right: Expr, sample: Sample) -> bool | None:
-    difference = _difference(left, right)
-    if difference is None:
+    form = difference(left, right)
+    if form is None:
         return None
-    variables = [v for v in difference if v is not None]
+    variables = [v for v in form if v is not None]
     # The sample stands for its piece in one variable; two would need an area.
     if len(variables) > 1 or any(v not in sample for v in variables):
         return None
-    value = difference[None] + sum(difference[v] * sample[v] for v in variables)
+    value = form[None] + sum(form[v] * sample[v] for v in variables)
     return {
         "<": value < 0,
         "<=": value <= 0,
@@ -288,54 +287,3 @@ def _compare(function: str, left: Expr, right: Expr, sample: Sample) -> bool | N
 
 
 _TRUE, _FALSE = (Call("<=", (Number(0.0), Number(right))) for right in (0.0, -1.0))
-
-
-def _difference(left: Expr, right: Expr) -> _Affine | None:
-    a, b = _affine(left), _affine(right)
-    return None if a is None or b is None else _combine(a, b, Fraction(-1))
-
-
-def _combine(a: _Affine, b: _Affine, factor: Fraction) -> _Affine:
-    total = {v: a.get(v, Fraction(0)) + factor * b.get(v, Fraction(0)) for v in (*a, *b)}
-    return {v: slope for v, slope in total.items() if v is None or slope}
-
-
-def _affine(expr: Expr) -> _Affine | None:
-    """Return the slope of each index and the constant (under None); None if not affine."""
-    match expr:
-        case Number(value) if isfinite(value):
-            return {None: Fraction(value)}
-        case Index(None, offset):
-            return {None: Fraction(offset)}
-        case Index(str() as variable, offset):
-            return {None: Fraction(offset), variable: Fraction(1)}
-        case Call("neg", (inner,)):
-            return _scaled(_affine(inner), Fraction(-1))
-        case Call("+", terms):
-            return _affine_sum(terms)
-        case Call("*", (left, right)):
-            a, b = _affine(left), _affine(right)
-            if a is not None and b is not None and len(a) > 1:
-                a, b = b, a
-            return _scaled(b, a[None]) if a is not None and len(a) == 1 else None
-        case Call("/", (left, right)):
-            divisor = _affine(right)
-            if divisor is None or len(divisor) > 1 or not divisor[None]:
-                return None
-            return _scaled(_affine(left), 1 / divisor[None])
-        case _:
-            return None
-
-
-def _scaled(a: _Affine | None, factor: Fraction) -> _Affine | None:
-    return None if a is None else _combine({None: Fraction(0)}, a, factor)
-
-
-def _affine_sum(terms: tuple[Expr, ...]) -> _Affine | None:
-    total: _Affine = {None: Fraction(0)}
-    for term in terms:
-        part = _affine(term)
-        if part is None:
-            return None
-        total = _combine(total, part, Fraction(1))
-    return total
