@@ -33,6 +33,7 @@ from nsode.syntax.ast import (
     ConstantDeclaration,
     Declarator,
     InputDeclaration,
+    Model,
     ParameterDeclaration,
     StateDeclaration,
     Unit,
@@ -186,6 +187,16 @@ class Declarations:
                 if not apply(bound.relation, own, limit.value):
                     raise _out_of_bounds(item, name, own, bound)
             self.checks.append(Check("bound", held, item.range, "declared", span=bound.span))
+
+
+def declare(model: Model, symbols: Symbols, review: Review, report: Report) -> Declarations:
+    """Return the items of a model that need no other names than constants."""
+    declared = Declarations(symbols, review)
+    declared.constants(model.all(ConstantDeclaration), report)
+    report.each(declared.parameter, model.all(ParameterDeclaration))
+    report.each(declared.input, model.all(InputDeclaration))
+    report.each(declared.state, model.all(StateDeclaration))
+    return declared
 
 
 def _check_one_default(default: Value) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 
 from nsode.diagnostics import ModelError, refuse
 from nsode.expr import Expr, Name, Number
@@ -75,6 +75,11 @@ class Definitions:
         self.forces.append(name.text)
         if rest is not None:
             self._pending[name.text] = _Pending(declarator, rest, declaration.unit, "force")
+
+    def hoisted(self, output: ast.OutputDeclaration) -> ast.OutputDeclaration:
+        """Return an output with its inline terms hoisted."""
+        value = self.hoister.hoist(output.value, output.declarator.range)
+        return replace(output, value=value)
 
     def elaborate(self) -> None:
         """Elaborate everything, each behind what it reads; loops are reported."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -39,12 +39,13 @@ class Elements:
     notes: tuple[Diagnostic, ...]
 
 
-def distinct(terms: list[SetValuedTerm], inline: set[str], numbering: Numbering) -> Elements:
+def distinct(terms: list[SetValuedTerm], inline: set[str], bindings: Iterable[Binding]) -> Elements:
     """Find the distinct elements; the first written gives the name and the constants.
 
     dio terms agree up to a positive factor of the gap, which scales the multiplier;
     sgn terms up to any factor of the velocity, of which only the sign counts.
     """
+    numbering = Numbering.over(bindings)
     first: dict[_Identity, tuple[SetValuedTerm, float]] = {}
     kept: list[SetValuedTerm] = []
     same: list[tuple[SetValuedTerm, SetValuedTerm, float]] = []

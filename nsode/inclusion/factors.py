@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
+from itertools import chain
 
 from nsode.expr import Call, Expr, Index, IndexRange, Name, Number, add, negate
 from nsode.inclusion.facts import OPPOSITE, Facts, Goal
 from nsode.inclusion.families import Axes, cases
+from nsode.inclusion.report import Report
 from nsode.inclusion.sharing import Numbering
-from nsode.inclusion.signs import Guard, Prover
+from nsode.inclusion.signs import Guard, Proof, Prover
 from nsode.inclusion.unproved import unproved
 from nsode.ode import Binding, Check, DifferentialInclusion, Parameter, SetValuedTerm
 from nsode.source import Source
@@ -16,7 +19,7 @@ from nsode.source import Source
 _RELATIONS: dict[str, Goal] = {">=": ">=", ">": ">", "<=": "<=", "<": "<"}
 
 
-def prover_of(inclusion: DifferentialInclusion, checks: Iterable[Check]) -> Prover:
+def prover_of(inclusion: DifferentialInclusion) -> Prover:
     """Return a prover over the definitions of a model, its declared bounds and assumptions."""
     prover = Prover(Numbering(), {p.name: p for p in inclusion.parameters})
     for item in inclusion.bindings:
@@ -25,7 +28,7 @@ def prover_of(inclusion: DifferentialInclusion, checks: Iterable[Check]) -> Prov
                 prover.numbering.add(item)
             case SetValuedTerm(kind="dio"):
                 prover.nonnegative.update(item.multiplier)
-    for check in checks:
+    for check in inclusion.checks:
         for condition, over in cases(check.condition, check.range):
             _take(prover.facts, condition, over)
     return prover
@@ -63,11 +66,33 @@ def _terms(expr: Expr) -> tuple[Expr, ...]:
     return expr.args if isinstance(expr, Call) and expr.function == "+" else (expr,)
 
 
-def prove_factor(prover: Prover, term: SetValuedTerm, source: Source) -> list[Check]:
+def with_proved_factors(
+    inclusion: DifferentialInclusion, terms: Iterable[SetValuedTerm], report: Report
+) -> DifferentialInclusion:
+    """Return the inclusion with nonnegative factors, and with checks of what proves them."""
+    prover = prover_of(inclusion)
+    found = report.each(lambda term: prove_factor(prover, term, inclusion.source), terms)
+    proved = {term.name: term for term, _ in found}
+    bindings = (
+        proved.get(item.name, item) if isinstance(item, SetValuedTerm) else item
+        for item in inclusion.bindings
+    )
+    checks = chain(inclusion.checks, *(checks for _, checks in found))
+    return replace(inclusion, bindings=tuple(bindings), checks=tuple(checks))
+
+
+def prove_factor(
+    prover: Prover, term: SetValuedTerm, source: Source
+) -> tuple[SetValuedTerm, list[Check]]:
     """Prove that the factor of a term is nonnegative.
+
+    A factor that is declared to be at most zero is one of the other sign:
+    ``chi*sgn(theta)`` is ``(-chi)*sgn(-theta)``.
 
     Returns
     -------
+    SetValuedTerm
+        The term with a nonnegative factor.
     list of Check
         chi >= 0 itself, to be watched at run time, and the sign of each parameter that
         lent the sign of its value.
@@ -77,15 +102,22 @@ def prove_factor(prover: Prover, term: SetValuedTerm, source: Source) -> list[Ch
     ModelError
         NS201 without a proof.
     """
-    factor = term.factor
-    if factor is None:
-        return []
-    guards: set[Guard] = set()
-    for case in cases(factor, term.range):
-        proof = prover.prove(case.expr, ">=", case.over)
-        if proof is None:
-            raise unproved(prover, term, case, source)
-        guards |= proof
+    if term.factor is None:
+        return term, []
+    parts = cases(term.factor, term.range)
+    guards = prover.prove_all(parts, ">=")
+    if guards is not None:
+        return term, _checks(prover, term, term.factor, guards)
+    guards = prover.prove_all(parts, "<=")
+    if guards is None or any(guard.goal in {"<=", "<"} for guard in guards):
+        raise unproved(prover, term, parts, source)
+    mirrored = replace(
+        term, factor=negate(term.factor), argument=tuple(negate(part) for part in term.argument)
+    )
+    return mirrored, _checks(prover, term, negate(term.factor), guards)
+
+
+def _checks(prover: Prover, term: SetValuedTerm, factor: Expr, guards: Proof) -> list[Check]:
     watched = Call(">=", (factor, Number(0.0)), span=factor.span)
     reason = f"the factor of `{term.name}`"
     checks = [Check("factor", watched, term.range, reason, span=factor.span)]

@@ -6,13 +6,14 @@ nothing recurses through names, and the cost stays linear.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import NamedTuple
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.expr import Call, Expr, If, Name, names, walk
-from nsode.ode import Binding, LinearSolve, SetValuedTerm
+from nsode.inclusion.report import Report
+from nsode.ode import Binding, DifferentialInclusion, LinearSolve, SetValuedTerm
 from nsode.source import Span
 
 
@@ -191,9 +192,26 @@ class Hypotheses:
         return _nonlinear(expr, label, origin)
 
 
-def base_reads(states: Iterable[str]) -> dict[str, Reads]:
-    """Return what is known before any binding: states are states."""
-    return {name: Reads(state=True) for name in states}
+def check_hypotheses(inclusion: DifferentialInclusion, report: Report) -> list[SetValuedTerm]:
+    """Report every term that the method cannot replace, and every rate it cannot take.
+
+    Returns
+    -------
+    list of SetValuedTerm
+        The terms that it can replace if their factors are nonnegative.
+    """
+    hypotheses = Hypotheses({state.name: Reads(state=True) for state in inclusion.states})
+    sound: list[SetValuedTerm] = []
+    for item in inclusion.bindings:
+        with report.collecting():
+            hypotheses.add(item)
+            if isinstance(item, SetValuedTerm):
+                sound.append(item)
+    solves = [item for item in inclusion.bindings if isinstance(item, LinearSolve)]
+    report.each(hypotheses.check_matrix, solves)
+    rights = chain.from_iterable(solve.right for solve in solves)
+    report.each(hypotheses.check_linear, [*rights, *(rate.value for rate in inclusion.rates)])
+    return sound
 
 
 def _nonlinear(expr: Expr, label: str, origin: Span) -> ModelError:

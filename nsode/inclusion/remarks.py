@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator
 
 from nsode.diagnostics import Diagnostic, Label
 from nsode.expr import Call, names
 from nsode.inclusion.symbols import Symbols
-from nsode.ode import SetValuedTerm
+from nsode.ode import DifferentialInclusion
 
 
 def unused_names(symbols: Symbols) -> Iterator[Diagnostic]:
@@ -26,11 +26,10 @@ def unused_names(symbols: Symbols) -> Iterator[Diagnostic]:
             )
 
 
-def divided_factors(
-    terms: Sequence[SetValuedTerm], parameters: Collection[str]
-) -> Iterator[Diagnostic]:
+def divided_factors(inclusion: DifferentialInclusion) -> Iterator[Diagnostic]:
     """Note factors divided by a parameter, which may be a mass."""
-    for term in terms:
+    parameters = {parameter.name for parameter in inclusion.parameters}
+    for term in inclusion.terms:
         match term.factor:
             case Call("/", (_, divisor)) if all(name.id in parameters for name in names(divisor)):
                 yield Diagnostic(

@@ -81,6 +81,27 @@ class Report:
         """Keep what is refused inside, and go on behind it."""
         return Collecting(self)
 
+    def each(self, change: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
+        """Return every item changed, but for those that are refused."""
+        found: list[Result] = []
+        for item in items:
+            with self.collecting():
+                found.append(change(item))
+        return found
+
+    def needed(self, make: Callable[[], Result]) -> Result:
+        """Return what nothing can go on without.
+
+        Raises
+        ------
+        ModelError
+            With everything found so far where it is refused.
+        """
+        with self.collecting():
+            return make()
+        self.raise_errors()
+        raise AssertionError("what is poisoned has a cause")
+
     def ordered(self) -> list[Diagnostic]:
         """Return the diagnostics by place, each once."""
         unique = dict.fromkeys(self.found)

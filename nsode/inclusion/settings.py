@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, quoted, refuse, suggest
@@ -153,10 +153,8 @@ def _check_new(setting: Setting, seen: dict[str, Setting]) -> None:
         )
 
 
-def run(
-    statements: Sequence[SimulateStatement], scope: Scope, review: Review
-) -> tuple[Run, list[Diagnostic]]:
-    """Return the defaults of a run and what is to be said of them.
+def run(statements: Sequence[SimulateStatement], scope: Scope, review: Review) -> Run:
+    """Return the defaults of a run.
 
     Raises
     ------
@@ -164,7 +162,7 @@ def run(
         NS102 for a second statement or setting, NS501 for values out of range.
     """
     if not statements:
-        return Run(), []
+        return Run()
     if len(statements) > 1:
         raise refuse("NS102", "`simulate` stands twice", statements[1].span, help="keep one")
     statement = statements[0]
@@ -181,8 +179,7 @@ def run(
     given = dict(zip(seen, each(value, statement.settings), strict=True))
     method = given.pop("method", None)
     times = {name: float(number) for name, number in given.items()}
-    found = Run(**times, method=None if method is None else str(method), span=statement.span)
-    return found, _remarks(found)
+    return Run(**times, method=None if method is None else str(method), span=statement.span)
 
 
 def _positive(setting: Setting, value: Expr, scope: Scope, review: Review) -> float:
@@ -225,18 +222,16 @@ def _no_names(name: str, at: int | None) -> float:
     raise AssertionError(name)
 
 
-def _remarks(found: Run) -> list[Diagnostic]:
-    if found.duration is None or found.step is None:
-        return []
-    steps = found.duration / found.step
-    if abs(steps - round(steps)) <= 1e-9 * steps:
-        return []
-    return [
-        Diagnostic(
+def odd_duration(hints: Run) -> Iterator[Diagnostic]:
+    """Note a duration that is no multiple of the step."""
+    if hints.duration is None or hints.step is None:
+        return
+    steps = hints.duration / hints.step
+    if abs(steps - round(steps)) > 1e-9 * steps:
+        yield Diagnostic(
             "NS404",
             f"the duration is {steps:.6g} steps long; a run takes {round(steps)}",
-            (Label(found.span),),
+            (Label(hints.span),),
             help="choose a duration that is a multiple of the step",
             severity="note",
         )
-    ]

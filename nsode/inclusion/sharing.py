@@ -39,6 +39,11 @@ class Numbering:
     _numbers: dict[object, int] = field(default_factory=dict)
     _known: dict[_Key, Scaled] = field(default_factory=dict)
 
+    @classmethod
+    def over(cls, bindings: Iterable[Binding]) -> Numbering:
+        """Return a numbering that looks through some bindings."""
+        return cls({binding.name: binding for binding in bindings})
+
     def add(self, binding: Binding) -> None:
         """Let later expressions look through a binding."""
         self.bindings[binding.name] = binding

@@ -64,18 +64,22 @@ class Prover:
 
         ``over`` are the index ranges under which the expression stands.
         """
-        bindings = self.numbering.bindings
-        for name in deepest_first(self._bound(expr), self._below, self._known):
-            parts = cases(bindings[name].value, bindings[name].range)
-            self._known[name] = {g: self._prove_cases(parts, g) for g in OPPOSITE}
-        with self._within(over):
-            return self._prove(expr, goal)
+        return self.prove_all([Case(expr, over)], goal)
 
-    def _prove_cases(self, parts: Sequence[Case], goal: Goal) -> Proof | None:
+    def prove_all(self, parts: Sequence[Case], goal: Goal) -> Proof | None:
+        """Return the guards under which every part has a sign, None without a proof."""
+        bindings = self.numbering.bindings
+        read = (name for part in parts for name in self._bound(part.expr))
+        for name in deepest_first(read, self._below, self._known):
+            inner = cases(bindings[name].value, bindings[name].range)
+            self._known[name] = {g: self._prove_parts(inner, g) for g in OPPOSITE}
+        return self._prove_parts(parts, goal)
+
+    def _prove_parts(self, parts: Sequence[Case], goal: Goal) -> Proof | None:
         guards = _NOTHING
-        for part, over in parts:
+        for expr, over in parts:
             with self._within(over):
-                proof = self._prove(part, goal)
+                proof = self._prove(expr, goal)
             if proof is None:
                 return None
             guards |= proof

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from nsode.diagnostics import ModelError, refuse
 from nsode.expr import Expr, IndexRange, Name, Sum, children
 from nsode.inclusion.families import Axes, cases, elements
-from nsode.ode import Placed
+from nsode.inclusion.report import Report
+from nsode.ode import DifferentialInclusion, Placed, defined, expressions
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +62,30 @@ def _outside(expr: Name, k: int, family: IndexRange) -> ModelError:
     )
 
 
-def ranges(items: Iterable[Placed]) -> dict[str, IndexRange]:
-    """Return the index range of every family among the items."""
-    return {item.name: item.range for item in items if item.range is not None}
+def check_subscripts(inclusion: DifferentialInclusion, report: Report) -> None:
+    """Report subscripts outside the range of their family, wherever they stand."""
+    families = {name: over for name, over in _defined(inclusion) if over is not None}
+    bounds = Bounds(families)
+    for exprs, over in _standing(inclusion):
+        with report.collecting():
+            bounds.check(exprs, over)
+
+
+def _defined(inclusion: DifferentialInclusion) -> Iterator[tuple[str, IndexRange | None]]:
+    items: tuple[Placed, ...] = (*inclusion.states, *inclusion.inputs, *inclusion.parameters)
+    yield from ((item.name, item.range) for item in items)
+    yield from ((name, item.range) for item in inclusion.bindings for name in defined(item))
+
+
+def _standing(
+    inclusion: DifferentialInclusion,
+) -> Iterator[tuple[Sequence[Expr], IndexRange | None]]:
+    """Yield every expression with the range under which it stands."""
+    for item in inclusion.bindings:
+        yield expressions(item), item.range
+    for term in inclusion.terms:
+        yield [value for _, value in term.approximation.constants], None
+    yield from (([rate.value], rate.range) for rate in inclusion.rates)
+    yield from (([output.value], output.range) for output in inclusion.outputs)
+    yield from (([state.initial], state.range) for state in inclusion.states)
+    yield from (([check.condition], check.range) for check in inclusion.checks)

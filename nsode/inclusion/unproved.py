@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
@@ -13,10 +14,14 @@ from nsode.ode import SetValuedTerm, element
 from nsode.source import Source
 
 
-def unproved(prover: Prover, term: SetValuedTerm, case: Case, source: Source) -> ModelError:
-    """Return the error for the factor of a term; ``case`` is where its proof fails."""
-    factor, culprit = term.factor, _culprit(prover, case)
+def unproved(
+    prover: Prover, term: SetValuedTerm, parts: Iterable[Case], source: Source
+) -> ModelError:
+    """Return the error for the factor of a term, which is written in parts over its range."""
+    factor = term.factor
     assert factor is not None
+    case = next(case for case in parts if prover.prove(case.expr, ">=", case.over) is None)
+    culprit = _culprit(prover, case)
     shown = source.on_one_line(factor.span) or "1"
     argument = source.on_one_line(term.argument[0].span.to(term.argument[-1].span))
     labels = [Label(factor.span, "this factor may change sign")]

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import chain
 
 from nsode.expr import Expr
-from nsode.ode import AugmentedODE, Binding, Definition, LinearSolve, Rate
+from nsode.ode import AugmentedODE, Binding, Definition, LinearSolve, Rate, expressions
 
 Change = Callable[[Expr], Expr]
 
@@ -28,6 +29,15 @@ def map_expressions(ode: AugmentedODE, change: Change) -> AugmentedODE:
             replace(a, rate=change(a.rate), initial=change(a.initial)) for a in ode.auxiliary
         ),
     )
+
+
+def all_expressions(ode: AugmentedODE) -> Iterator[Expr]:
+    """Yield every expression that a backend writes."""
+    yield from (state.initial for state in ode.states)
+    yield from chain.from_iterable(map(expressions, ode.bindings))
+    yield from (rate.value for rate in ode.rates)
+    yield from (output.value for output in ode.outputs)
+    yield from (check.condition for check in ode.checks)
 
 
 def map_rate(rate: Rate, change: Change) -> Rate:

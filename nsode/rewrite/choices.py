@@ -21,6 +21,8 @@ def misfits(term: SetValuedTerm) -> Iterator[Diagnostic]:
         yield _no_law(term, able)
         return
     yield from _unknown_constants(term)
+    if term.kind == "sgn" and term.approximation.at_equilibrium:
+        yield _no_equilibrium(term)
     if term.approximation.targets:
         targets = quoted(target for target, _ in term.approximation.targets)
         yield Diagnostic(
@@ -40,6 +42,19 @@ def _no_law(term: SetValuedTerm, able: tuple[str, ...]) -> Diagnostic:
         f"`{name}` cannot stand for `{term.kind}`" if exists else f"there is no law `{name}`",
         (Label(term.approximation.span, f"`{term.name}` is a `{term.kind}`" if exists else ""),),
         help=near or f"the laws for `{term.kind}` are {listed}",
+    )
+
+
+def _no_equilibrium(term: SetValuedTerm) -> Diagnostic:
+    return Diagnostic(
+        "NS303",
+        "`at equilibrium` is for `dio` alone",
+        (Label(term.approximation.span, f"`{term.name}` is a `sgn`"),),
+        notes=(
+            "a contact at rest presses in until it carries its load; a friction at rest "
+            "balances whatever pushes, which may be anything up to its factor",
+        ),
+        help=f"leave it out for `{term.name}`, whose displacement starts at 0",
     )
 
 

@@ -10,6 +10,7 @@ since stage 2 removes them: brackets, subscripts, components and grouping.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 from nsode.expr import Expr
 from nsode.source import NOWHERE, Source, Span
@@ -103,6 +104,9 @@ class Statement:
     """One statement."""
 
     span: Span = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+Kind = TypeVar("Kind", bound=Statement)
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,3 +231,7 @@ class Model:
     name: Identifier
     statements: tuple[Statement, ...]
     source: Source
+
+    def all(self, kind: type[Kind]) -> list[Kind]:
+        """Return the statements of one kind, in order."""
+        return [statement for statement in self.statements if isinstance(statement, kind)]

@@ -1,14 +1,19 @@
 """Names of a model in C: readable, never two alike, never in anybody's way."""
 
+import json
+import subprocess
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import nsode
 from nsode.backends import Options, emit
 from nsode.backends.c.names import Mangler, plain
 from nsode.expr import Name
 from nsode.ode import Binding, Input, Output, Parameter, Rate, State
 from support.hand_built import num, ode, plus
+from support.native import have
 
 HOSTILE = [
     "int", "NULL", "errno", "restrict", "INFINITY", "NAN", "y0", "unix", "linux", "I", "main",
@@ -79,3 +84,22 @@ def test_no_name_of_a_user_clashes_with_anything(compiler, compile_c):
     x = native.init()
     assert list(native.rhs(0.0, x)) == [3.0] * len(HOSTILE)
     assert list(native.out(0.0, x)) == [3.0 * len(HOSTILE)] * len(HOSTILE)
+
+
+@pytest.mark.parametrize("name", ["math", "string", "stdio", "Time", "sched", "features"])
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+def test_a_model_hides_no_header_of_the_system(name, tmp_path, compiler):
+    model = nsode.loads(f"model {name}\nstate x = 1\nder(x) = -sin(x) + min(x, 2)\n")
+    header, source, description = model.compile("c", tmp_path)
+    assert [path.name for path in (header, source)] == [f"{name}_model.h", f"{name}_model.c"]
+    assert json.loads(description.read_text())["prefix"] == f"{name}_model"
+    if not have(compiler):
+        pytest.skip(f"there is no {compiler}")
+    compile_alone = [compiler, "-std=c99", "-Werror", "-I", str(tmp_path), "-c", str(source)]
+    subprocess.run([*compile_alone, "-o", str(tmp_path / "out.o")], check=True)
+
+
+@pytest.mark.parametrize("name", ["maths", "strings_attached", "ball", "stdio_model"])
+def test_any_other_name_stays(name, tmp_path):
+    paths = nsode.loads(f"model {name}\nstate x = 1\nder(x) = -x\n").compile("c", tmp_path)
+    assert paths[0].name == f"{name}.h"

@@ -6,7 +6,7 @@ import pytest
 
 import nsode
 from nsode.diagnostics import ModelError
-from support.reading import compiled, refused, text
+from support.reading import compiled, rates, refused, remarks, text
 
 HEAD = (
     "parameter mu = 0.5",
@@ -38,9 +38,9 @@ PROVED = [
 
 UNPROVED = [
     "w", "below", "mu - N", "N - mu", "w^3", "w*v", "mu*below", "sin(w)", "mu + below", "N/zero",
-    "N/w", "N/abs(w)", "min(mu, w)", "max(below, w)", "log(N)", "tanh(w)", "-dio(w)", "mixed[1]",
+    "N/w", "N/abs(w)", "min(mu, w)", "max(below, w)", "log(N)", "tanh(w)", "-dio(w)*w", "mixed[1]",
     "sum(i in 1..n: (i - 2)*abs(x[i]))", "sum(i in 1..n: mixed[i]^3)", "sum(i in 1..n: x[i])",
-    "if t > 0 then mu else below", "-abs(w)", "x[1]", "sqrt(below)*0 - 1",
+    "if t > 0 then mu else below", "-abs(w)*below*v", "x[1]", "-below*w - 1",
 ]  # fmt: skip
 
 
@@ -82,11 +82,11 @@ def test_is_proved_by_an_assumption(assumption: str, factor: str) -> None:
 @pytest.mark.parametrize(
     ("assumption", "factor"),
     [
-        ("w >= 0", "-w*1"),
+        ("w >= 0", "-w*v"),
         ("w >= 0", "mu/w"),
         ("w >= 0 or v >= 0", "w"),
         ("0*w >= 0", "-w + 0"),
-        ("w - w >= 0", "-2*3*w^2"),
+        ("w - w >= 0", "-2*3*w^3"),
         ("x[2] >= 0", "x[1]"),
         ("not (w < 0)", "w - 1"),
     ],
@@ -132,7 +132,7 @@ def test_an_assumption_of_a_family_proves_its_elements(assumption: str, term: st
         ("for i in 2..n: assume x[i] >= 0", "T = x[1]*sgn(v)"),
         ("for i in 1..n: assume x[2] >= 0", "T = x[1]*sgn(v)"),
         ("for i in 1..0: assume x[i] >= 0", "T[i in 1..n] = x[i]*sgn(v)"),
-        ("for i in 1..n-1: assume x[i] <= x[i+1]", "T[i in 1..n-1] = (x[i] - x[i+1])*sgn(v)"),
+        ("for i in 1..n-1: assume x[i] <= x[i+1]", "T[i in 1..n-1] = (x[i] - 2*x[i+1])*sgn(v)"),
         ("for i in 1..n: assume x[i] >= 0", "T[i in 1..n] = x[i]*k[i]*v*sgn(v)"),
     ],
 )
@@ -173,6 +173,47 @@ def guards(*lines: str) -> set[str]:
 )
 def test_just_what_the_proof_used_is_guarded(factor: str, guarded: set[str]) -> None:
     assert guards(f"der(v) = -({factor})*sgn(v)") == guarded
+
+
+@pytest.mark.parametrize(
+    ("said", "factor", "mirrored"),
+    [
+        ("parameter low = -2 <= 0", "low", "2"),
+        ("parameter low = -2 <= 0", "mu*low*N", "mu*2*N"),
+        ("parameter low = -2 < 0", "mu/low", "mu/2"),
+        ("input low = -2 <= -1", "low*abs(w)", "2*abs(w)"),
+        ("assume w < 0", "w", "abs(w)"),
+        ("let drag = -mu*dio(w)", "drag", "mu*dio(w)"),
+    ],
+)
+def test_a_factor_known_to_be_negative_is_one_of_the_other_sign(said, factor, mirrored) -> None:
+    """``chi*sgn(theta)`` is ``(-chi)*sgn(-theta)``: the state of the element is mirrored."""
+    negative = compiled(*HEAD, said, f"der(v) = -{factor}*sgn(v)")
+    positive = compiled(*HEAD, f"der(v) = {mirrored}*sgn(v)")
+    constants = {"sgn1.K": 50, "sgn1.beta": 0.1} | (
+        {"dio1.K": 9, "dio1.alpha": 0.1, "dio1.beta": 0.2} if "dio" in said else {}
+    )
+    for a in (-0.3, 0.01, 0.3):
+        at = {"v": 0.2, "w": -0.7}
+        found = rates(negative, {**at, "sgn1.a": -a}, constants)
+        wanted = rates(positive, {**at, "sgn1.a": a}, constants)
+        assert found["v"] == wanted["v"]
+        assert found["sgn1.a"] == -wanted["sgn1.a"]
+
+
+def test_a_negative_factor_is_held_to_what_was_declared_of_it() -> None:
+    law = "approximate default sgn: K = 1, beta = 1"
+    lines = ("parameter low = -2 <= 0", "der(v) = -mu*low*sgn(v)", law)
+    with pytest.raises(ModelError, match="does not hold with `low` = 1"):
+        compiled(*HEAD, *lines).with_parameters({"low": 1})
+    with pytest.raises(ModelError, match="does not hold with `mu` = -1"):
+        compiled(*HEAD, *lines).with_parameters({"mu": -1})
+
+
+def test_a_negative_factor_that_pushes_draws_the_warning_that_it_deserves() -> None:
+    low = "parameter low = -2 <= 0"
+    assert "NS402" in remarks(*HEAD, low, "der(v) = -low*sgn(v)")
+    assert "NS402" not in remarks(*HEAD, low, "der(v) = low*sgn(v)")
 
 
 def test_an_assumption_is_checked_and_so_is_the_factor() -> None:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from nsode.backends import Options
 from nsode.backends.c.expressions import Scope, lower
 from nsode.backends.c.header import header
+from nsode.backends.c.names import file_stem
 from nsode.backends.c.program import program
+from nsode.backends.c.single import check_single
 from nsode.backends.c.source import source
 from nsode.backends.descriptor import render
 from nsode.integrators.splittings import Verlet
@@ -36,13 +39,17 @@ def emit(
     Returns
     -------
     dict
-        ``PREFIX.h``, ``PREFIX.c`` and ``PREFIX.json``.
+        ``PREFIX.h``, ``PREFIX.c`` and ``PREFIX.json``; ``math`` and the like are moved aside.
 
     Raises
     ------
     ModelError
-        NS501 if a splitting cannot step the model.
+        NS501 if a splitting cannot step the model, NS116 for numbers that a float cannot
+        hold where one is asked for.
     """
+    if options.real == "float":
+        check_single(ode)
+    options = replace(options, prefix=file_stem(options.prefix or ode.name))
     made = program(ode, options, splittings)
     return {
         f"{made.prefix}.h": header(made),

@@ -10,6 +10,27 @@ _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\[-?[0-9]+\]|\.[A-Za-z0-9_]+)*\Z")
 _SPELLING = str.maketrans({".": "_", "[": "_", "]": None, "-": "m"})
 
 
+#: Headers of C99 and POSIX, and those that they include: a file of ours would hide them.
+_HEADERS = frozenset(
+    (
+        *("assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646"),
+        *("limits", "locale", "math", "setjmp", "signal", "stdalign", "stdarg", "stdatomic"),
+        *("stdbool", "stddef", "stdint", "stdio", "stdlib", "stdnoreturn", "string", "tgmath"),
+        *("threads", "time", "uchar", "wchar", "wctype"),
+        *("aio", "alloca", "dirent", "dlfcn", "endian", "fcntl", "features", "fmtmsg", "fnmatch"),
+        *("ftw", "glob", "grp", "iconv", "langinfo", "libgen", "malloc", "memory", "monetary"),
+        *("mqueue", "ndbm", "netdb", "nl_types", "poll", "pthread", "pwd", "regex", "sched"),
+        *("search", "semaphore", "spawn", "strings", "stropts", "syslog", "tar", "termios"),
+        *("trace", "ulimit", "unistd", "utime", "utmpx", "values", "wordexp"),
+    )
+)
+
+
+def file_stem(prefix: str) -> str:
+    """Return the prefix, moved aside where ``PREFIX.h`` would hide a header of the system."""
+    return f"{prefix}_model" if prefix.lower() in _HEADERS else prefix
+
+
 def identifier(text: str) -> str:
     """Return ``text`` if it can begin a C name.
 
