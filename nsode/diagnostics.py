@@ -127,6 +127,10 @@ class ModelError(Exception):
         self.source = source
         super().__init__("\n".join(f"{d.code}: {d.message}" for d in self.diagnostics))
 
+    def __reduce__(self) -> tuple[object, ...]:
+        # Errors come back from the processes of a sweep; `args` alone would not rebuild them.
+        return type(self), (self.diagnostics, self.source)
+
     def __str__(self) -> str:
         return render(self.diagnostics, self.source)
 

@@ -15,6 +15,7 @@ from nsode.simulate.inputs import Inputs
 from nsode.simulate.loop import Record
 from nsode.simulate.machine import BROKEN, NOT_FINITE, SINGULAR, Machine, Vector
 from nsode.simulate.settings import Settings
+from nsode.source import Source
 
 if TYPE_CHECKING:
     from nsode.simulate.trajectory import Trajectory
@@ -23,9 +24,12 @@ if TYPE_CHECKING:
 class RunError(ModelError):
     """A run went wrong; ``trajectory`` holds the rows before that."""
 
-    def __init__(self, cause: Diagnostic, ode: AugmentedODE, trajectory: Trajectory) -> None:
-        super().__init__([cause], ode.source)
+    def __init__(self, cause: Diagnostic, source: Source | None, trajectory: Trajectory) -> None:
+        super().__init__([cause], source)
         self.trajectory = trajectory
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (*self.diagnostics, self.source, self.trajectory)
 
 
 def cause(

@@ -127,11 +127,11 @@ def simulate(
     if found.status != OK:
         observed = made.observed.ode
         why = failure.cause(observed, made.machine, settings, given, p, found)
-        raise failure.RunError(why, ode, trajectory)
+        raise failure.RunError(why, ode.source, trajectory)
     if made.books is not None:
         said = verdict(made.books, found.t, found.xs, found.ys)
         if said is not None and said.severity == "error":
-            raise failure.RunError(said, ode, trajectory)
+            raise failure.RunError(said, ode.source, trajectory)
         if said is not None:
             manner.tell(said)
     if found.interrupted:
