@@ -86,7 +86,7 @@ def _picture(context: click.Context, parameter: click.Parameter, value: str | No
 )  # fmt: skip
 @click.option(
     "--ledger", is_flag=True,
-    help="Store also what each element stores, dissipates and is given.",
+    help="Store also what each element stores, dissipates and is given, and draw it.",
 )  # fmt: skip
 @click.option("--strict", is_flag=True, help="Refuse what draws a warning before the run.")
 @click.option("--no-guard", is_flag=True, help="Go on where energy comes from nothing.")
@@ -177,7 +177,7 @@ def _write(trajectory: Trajectory, output: Path | None, drawing: Path | None) ->
             trajectory.save(output)
         say(quiet(f"wrote {output}"))
     if drawing is not None:
-        from nsode.simulate.plot import left_out
+        from nsode.simulate.panels import left_out
 
         with writing():
             trajectory.plot(file=drawing)

@@ -14,8 +14,11 @@ from nsode.ode import (
     AugmentedODE,
     Check,
     DifferentialInclusion,
+    Input,
     Output,
+    Parameter,
     SetValuedTerm,
+    State,
     element_names,
 )
 
@@ -57,7 +60,7 @@ def observe(inclusion: DifferentialInclusion, ode: AugmentedODE) -> Observed:
     given = {output.name for output in ode.outputs}
     unnamed = [output for output in _forces(terms) if output.name not in given]
     gaps = [
-        Output(f"{term.name}.psi", term.argument[0], term.range)
+        Output(f"{term.name}.psi", term.argument[0], term.range, _unit(term.argument[0], inclusion))
         for term in terms
         if term.kind == "dio"
     ]
@@ -75,6 +78,19 @@ def observe(inclusion: DifferentialInclusion, ode: AugmentedODE) -> Observed:
         tuple(_elements(terms)),
         tuple(element_names(_forces(terms))),
     )
+
+
+def _unit(sum_: Expr, inclusion: DifferentialInclusion) -> str | None:
+    """Return the unit of a sum, which is that of each summand, where one of these has one."""
+    match sum_:
+        case Call("+" | "-" | "neg", args):
+            return next((unit for arg in args if (unit := _unit(arg, inclusion))), None)
+        case Name(name):
+            known: list[State | Parameter | Input] = [*inclusion.states]
+            known += [*inclusion.parameters, *inclusion.inputs]
+            return next((item.unit for item in known if item.name == name), None)
+        case _:
+            return None
 
 
 def settled(check: Check, ode: AugmentedODE) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nsode.simulate.observe import Mode
-from nsode.simulate.trajectory import Trajectory
+from nsode.simulate.panels import Panel, named, panels, stem
+from nsode.simulate.trajectory import Array, Trajectory
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,18 +25,21 @@ STYLE: dict[Any, Any] = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.xmargin": 0.0,
+    "axes.formatter.limits": (-3, 4),
+    "axes.formatter.use_mathtext": True,
     "lines.linewidth": 1.0,
     "legend.frameon": False,
     "savefig.dpi": 200,
     "svg.hashsalt": "nsode",
 }
 
-_MOST_PANELS, _MOST_MODES = 8, 12
+_FEW_MODES = 12  # elements whose names have room
+_BESIDE: dict[str, Any] = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5), "fontsize": "small"}
 _LOOKS = {Mode.CONTACT: "0.55", Mode.STICK: "0.25", Mode.SLIP: "0.85"}
 
 
 def plot(trajectory: Trajectory, names: Sequence[str] = (), file: Path | None = None) -> Figure:
-    """Draw names over time, one panel for each vector or scalar, then a band of modes.
+    """Draw names over time, or what suits the run, then a band of modes.
 
     Raises
     ------
@@ -49,14 +52,16 @@ def plot(trajectory: Trajectory, names: Sequence[str] = (), file: Path | None = 
 
     from nsode.simulate.figure import Figure
 
-    panels = [[name] for name in names] or _panels(trajectory)[:_MOST_PANELS]
-    bands = bool(trajectory.mode_names)
-    heights = [1.0] * len(panels) + [0.16 * min(_MOST_MODES, len(trajectory.mode_names))] * bands
+    shown = [named(trajectory, name) for name in names] or panels(trajectory)
+    bands = len(trajectory.mode_names)
+    heights = [1.0] * len(shown) + [max(0.3, 0.16 * min(_FEW_MODES, bands))] * (bands > 0)
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.3, 0.5 + 1.35 * sum(heights)), layout="constrained")
         axes = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)
-        for panel, axis in zip(panels, axes[:, 0], strict=False):
-            curves(axis, trajectory, panel)
+        for panel, axis in zip(shown, axes[:, 0], strict=False):
+            draw(axis, trajectory.t, panel)
+            if len(trajectory.psi_names) == 1:
+                shade(axis, trajectory, trajectory.psi_names[0])
         if bands:
             _mode_panel(axes[-1, 0], trajectory)
         axes[-1, 0].set_xlabel("t [s]")
@@ -64,15 +69,6 @@ def plot(trajectory: Trajectory, names: Sequence[str] = (), file: Path | None = 
         if file is not None:
             write(figure, file)
     return figure
-
-
-def left_out(trajectory: Trajectory) -> str:
-    """Return what a figure of a whole run has no room for, empty where it shows all."""
-    things = (
-        (len(_panels(trajectory)) - _MOST_PANELS, "of the states and outputs"),
-        (len(trajectory.mode_names) - _MOST_MODES, "of the elements"),
-    )
-    return "".join(f", without {more:,} {what}" for more, what in things if more > 0)
 
 
 def write(figure: Figure, file: Path) -> None:
@@ -92,17 +88,19 @@ def write(figure: Figure, file: Path) -> None:
     write_binary(file, lambda target: figure.savefig(target, format=ending, metadata=undated))
 
 
-def curves(axis: Axes, trajectory: Trajectory, names: Sequence[str]) -> None:
-    """Draw columns into a panel, named and with their unit."""
-    drawn = [column for name in names for column in trajectory.names(name)]
-    for number, name in enumerate(drawn):
-        color = COLORS[number % len(COLORS)]
-        axis.plot(trajectory.t, trajectory[name], color=color, label=name)
-    unit = trajectory.unit(drawn[0])
-    common = drawn[0] if len(drawn) == 1 else _stem(drawn[0])
-    axis.set_ylabel(f"{common} [{unit}]" if unit else common)
-    if 1 < len(drawn) <= len(COLORS):
-        axis.legend(loc="best", ncols=len(drawn), fontsize="small")
+def draw(axis: Axes, t: Array, panel: Panel) -> None:
+    """Draw the curves of a panel; of many, the first and the last are named."""
+    import matplotlib as mpl
+
+    many = len(panel.curves) > len(COLORS)
+    shades = mpl.colormaps["viridis"](np.linspace(0.0, 0.9, len(panel.curves)))
+    for number, (name, values) in enumerate(panel.curves.items()):
+        color = shades[number] if many else COLORS[number]
+        shown = not many or number in (0, len(panel.curves) - 1)
+        axis.plot(t, values, color=color, lw=0.6 if many else None, label=name if shown else None)
+    axis.set_ylabel(panel.title)
+    if len(panel.curves) > 1:
+        axis.legend(**_BESIDE)
 
 
 def shade(axis: Axes, trajectory: Trajectory, element: str, mode: Mode = Mode.CONTACT) -> None:
@@ -114,9 +112,10 @@ def shade(axis: Axes, trajectory: Trajectory, element: str, mode: Mode = Mode.CO
 def _mode_panel(axis: Axes, trajectory: Trajectory) -> None:
     from matplotlib.patches import Patch
 
-    names = trajectory.mode_names[:_MOST_MODES]
+    names = list(reversed(trajectory.mode_names))
+    tall = 0.7 if len(names) <= _FEW_MODES else 1.0
     seen: set[Mode] = set()
-    for level, name in enumerate(reversed(names)):
+    for level, name in enumerate(names):
         codes = trajectory.mode(name)
         for mode, gray in _LOOKS.items():
             spans = [
@@ -125,30 +124,24 @@ def _mode_panel(axis: Axes, trajectory: Trajectory) -> None:
             ]
             if spans:
                 seen.add(mode)
-                axis.broken_barh(spans, (level - 0.35, 0.7), facecolor=gray, lw=0)
-    axis.set_yticks(range(len(names)), list(reversed(names)))
+                axis.broken_barh(spans, (level - tall / 2, tall), facecolor=gray, lw=0)
+    ticks = [k for k, name in enumerate(names) if len(names) <= _FEW_MODES or _ends(names, k)]
+    axis.set_yticks(ticks, [names[k] for k in ticks])
+    axis.set_ylim(-0.6, len(names) - 0.4)
     axis.tick_params(axis="y", length=0)
-    patches = [
-        Patch(facecolor=gray, lw=0, label=mode.name.lower())
-        for mode, gray in _LOOKS.items()
-        if mode in seen
-    ]
-    if patches:
-        axis.legend(handles=patches, loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="small")
+    axis.legend(
+        handles=[
+            Patch(facecolor=gray, lw=0, label=mode.name.lower())
+            for mode, gray in _LOOKS.items()
+            if mode in seen
+        ],
+        **_BESIDE,
+    )
 
 
-def _panels(trajectory: Trajectory) -> list[list[str]]:
-    """Return the model's own states, then its outputs, vectors together."""
-    auxiliary = set(trajectory.meta.get("auxiliary", ()))
-    groups: dict[str, list[str]] = {}
-    for name in (*trajectory.x_names, *trajectory.y_names):
-        if name not in auxiliary:
-            groups.setdefault(_stem(name), []).append(name)
-    return list(groups.values())
-
-
-def _stem(name: str) -> str:
-    return re.split(r"[.\[]", name, maxsplit=1)[0]
+def _ends(names: Sequence[str], k: int) -> bool:
+    """Whether a name is the first or the last of its family among others."""
+    return any(not 0 <= j < len(names) or stem(names[j]) != stem(names[k]) for j in (k - 1, k + 1))
 
 
 def _stretches(where: NDArray[np.bool_]) -> list[tuple[int, int]]:

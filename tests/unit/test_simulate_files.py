@@ -19,8 +19,8 @@ import pytest
 import nsode
 from nsode.cli import run as command
 from nsode.diagnostics import ModelError
-from nsode.simulate import Trajectory
-from nsode.simulate.plot import left_out
+from nsode.simulate import Mode, Trajectory
+from nsode.simulate.panels import left_out, panels
 from support import listing
 from support.models import MODELS
 
@@ -190,8 +190,61 @@ def test_a_figure_shows_every_vector_and_the_modes(sphere, tmp_path, ending):
 def test_a_figure_of_chosen_names(sphere):
     pytest.importorskip("matplotlib")
     figure = sphere.plot("p.z", "F", "N.psi")
-    assert [axis.get_ylabel() for axis in figure.axes[:3]] == ["p.z [m]", "F [N]", "N.psi"]
+    titles = [axis.get_ylabel() for axis in figure.axes[:3]]
+    assert titles == ["p.z [m]", "F [N]", "N.psi [m]"]
     assert len(figure.axes[1].lines) == 2
+
+
+def test_a_figure_shows_what_the_elements_do(sphere):
+    pytest.importorskip("matplotlib")
+    drawn = {axis.get_ylabel(): axis for axis in sphere.plot().axes}
+    assert {"N [N]", "F [N]", "penetration [m]"} < set(drawn)
+    [depth] = drawn["penetration [m]"].lines
+    np.testing.assert_array_equal(depth.get_ydata(), np.maximum(0.0, 0.5 - sphere["p.z"]))
+    closed = np.flatnonzero(np.diff((sphere.mode("N") == Mode.CONTACT).astype(int)) == 1)
+    gray = sorted(patch.get_x() for patch in drawn["v [m/s]"].patches)
+    np.testing.assert_array_equal(gray, sphere.t[closed + 1])
+
+
+def test_scalars_of_one_unit_share_a_panel_and_elements_of_one_kind_do():
+    panels_ = panels(nsode.load(MODELS / "gripper.di").simulate(0.01))
+    titles = [panel.title for panel in panels_]
+    assert titles[2:4] == ["a, b [m]", "va, vb [m/s]"]
+    assert titles[4:] == ["L, R [N]", "FL, FR [N]", "penetration [m]"]
+
+
+def test_of_a_large_family_the_ends_are_named():
+    pytest.importorskip("matplotlib")
+    figure = nsode.load(MODELS / "burridge_knopoff.di").simulate(0.1).plot()
+    legend = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    assert legend == ["x[1]", "x[32]"]
+    assert len(figure.axes[0].lines) == 32
+    assert [text.get_text() for text in figure.axes[-1].get_yticklabels()] == ["F[32]", "F[1]"]
+
+
+@pytest.mark.parametrize("name", ["rolling_sphere", "two_blocks_conveyor", "burridge_knopoff"])
+def test_no_legend_and_no_label_lies_on_a_curve_or_on_another(name):
+    pytest.importorskip("matplotlib")
+    figure = nsode.load(MODELS / f"{name}.di").simulate(0.5).plot()
+    figure.draw_without_rendering()
+    boxes = [axis.get_window_extent() for axis in figure.axes]
+    legends = [axis.get_legend() for axis in figure.axes if axis.get_legend() is not None]
+    texts = [legend.get_window_extent() for legend in legends]
+    texts += [axis.yaxis.label.get_window_extent() for axis in figure.axes]
+    for k, text in enumerate(texts):
+        assert not any(text.overlaps(box) for box in boxes)
+        assert not any(text.overlaps(other) for other in texts[:k])
+
+
+def test_energies_are_drawn_where_the_run_kept_the_ledger():
+    model = nsode.load(MODELS / "bouncing_mass.di").with_ledger()
+    energy = panels(model.simulate(1.0, 1e-4))[-1]
+    assert energy.title == "energy [J]"
+    given, stored, dissipated = (energy.curves[w] for w in ("given", "stored", "dissipated"))
+    np.testing.assert_allclose(stored + dissipated, given, atol=1e-2 * given.max())
+    assert [panel.title for panel in panels(model.simulate(1.0, every=5))][
+        -1
+    ] == "stored energy [J]"
 
 
 def test_a_trajectory_shows_itself_as_text_and_html(sphere):
@@ -321,12 +374,10 @@ def test_the_cache_is_shown_and_cleared(model, tmp_path, monkeypatch, capfd):
 
 
 def test_a_figure_tells_how_much_it_leaves_out():
-    column = nsode.load(MODELS / "granular_column.di")
-    assert left_out(column.simulate(1e-3)) == ""
-    text = column.source.text
-    assert "constant n = 10" in text
-    larger = nsode.loads(text.replace("constant n = 10", "constant n = 15"))
-    assert left_out(larger.simulate(1e-3)) == ", without 3 of the elements"
+    assert left_out(nsode.load(MODELS / "granular_column.di").simulate(1e-3)) == ""
+    lines = [f"state p{k}[2] = [0, 0]\nder(p{k}) = [0, 0]\n" for k in range(11)]
+    many = nsode.loads(f"model many\n{''.join(lines)}simulate 1 step 0.1\n")
+    assert left_out(many.simulate()) == ", without 3 of the states and outputs"
 
 
 def test_the_command_stores_the_ledger_with_the_run(tmp_path):
