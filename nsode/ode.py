@@ -16,6 +16,9 @@ from nsode.dimension import Dimension
 from nsode.expr import Expr, IndexRange
 from nsode.source import NOWHERE, Source, Span
 
+#: What the name of a state ends with where it stands for the rate of that state.
+RATE_SUFFIX = ".rate"
+
 
 @dataclass(frozen=True, slots=True)
 class Parameter:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum
+from nsode.ode import RATE_SUFFIX
 
 _CHOICE, _OR, _AND, _NOT, _COMPARE, _SUM, _MINUS, _PRODUCT, _POWER, _ATOM = range(10)
 
@@ -22,6 +23,8 @@ def number(value: float) -> str:
 
 def name(id: str, at: Index | None = None) -> str:
     """Return a name, or an element of a family: ``p.x`` at i+1 is ``p[i+1].x``."""
+    if id.endswith(RATE_SUFFIX):
+        return f"der({name(id.removesuffix(RATE_SUFFIX), at)})"
     if at is None:
         return id
     head, dot, tail = id.partition(".")

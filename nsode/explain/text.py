@@ -10,7 +10,16 @@ from nsode.explain.closed import Value, rates, values
 from nsode.explain.definitions import behind, fixed
 from nsode.explain.plain import number, over, plain
 from nsode.expr import Expr, Index, IndexRange, Name, Number, multiply
-from nsode.ode import Binding, Definition, LinearSolve, Rate, SetValuedTerm, System, size
+from nsode.ode import (
+    RATE_SUFFIX,
+    Binding,
+    Definition,
+    LinearSolve,
+    Rate,
+    SetValuedTerm,
+    System,
+    size,
+)
 
 if TYPE_CHECKING:
     from nsode.explain import Explanation, Step
@@ -38,8 +47,7 @@ def _lines(explanation: Explanation, head: Callable[[str], str]) -> Iterator[str
     yield head(f"{ode.name}: from the differential inclusion to an ODE")
     yield ""
     yield head("The differential inclusion, as in (31)")
-    yield from _rates(inclusion.rates)
-    yield from _where(row for item in behind(inclusion) for row in _definition(item, inclusion))
+    yield from _equations(inclusion.rates, behind(inclusion), inclusion)
     dio = [step for step in explanation.steps if step.term.kind == "dio"]
     sgn = [step for step in explanation.steps if step.term.kind == "sgn"]
     for found, title, form in (
@@ -71,20 +79,26 @@ def _lines(explanation: Explanation, head: Callable[[str], str]) -> Iterator[str
 
 
 def _closed(explanation: Explanation) -> Iterator[str]:
-    inclusion = explanation.inclusion
-    yield from _rates(rates(explanation))
-    yield from _where(row for item in values(explanation) for row in _definition(item, inclusion))
+    yield from _equations(rates(explanation), values(explanation), explanation.inclusion)
 
 
-def _rates(rates: Iterable[Rate]) -> Iterator[str]:
-    yield from _table(_rate(rate) for rate in rates)
-
-
-def _where(rows: Iterable[Row]) -> Iterator[str]:
-    found = list(rows)
-    if found:
+def _equations(
+    rates: Iterable[Rate], items: Iterable[Value | Definition], system: System
+) -> Iterator[str]:
+    """Yield the rates, also those that a mass matrix couples, and what they rest on."""
+    rows = [_rate(rate) for rate in rates if not _has_a_name(rate)]
+    where: list[Row] = []
+    for item in items:
+        (rows if isinstance(item, LinearSolve) else where).extend(_definition(item, system))
+    yield from _table(rows)
+    if where:
         yield "where"
-        yield from _table(found)
+        yield from _table(where)
+
+
+def _has_a_name(rate: Rate) -> bool:
+    """Whether a rate is defined elsewhere, so that here stands nothing but its name."""
+    return isinstance(rate.value, Name) and rate.value.id == rate.state + RATE_SUFFIX
 
 
 def _rate(rate: Rate) -> Row:
@@ -111,9 +125,13 @@ def _definition(item: Value | Definition, system: System) -> Iterator[Row]:
             line = f"line {system.source.position(item.span.start).line}"
             yield _named(item.multiplier, item.range), f"in {law(item)}{over(item.range)}", line
         case LinearSolve(unknowns, matrix, right, range):
-            rows = ", ".join(f"[{', '.join(map(plain, row))}]" for row in matrix)
-            sides = ", ".join(map(plain, right))
+            rows = ", ".join(f"[{_listed(row, range)}]" for row in matrix)
+            sides = _listed(right, range)
             yield f"[{rows}]*{_named(unknowns, range)}", f"= [{sides}]{over(range)}", ""
+
+
+def _listed(entries: Iterable[Expr], range: IndexRange | None) -> str:
+    return ", ".join(plain(fixed(entry, range)) for entry in entries)
 
 
 def law(term: SetValuedTerm) -> str:

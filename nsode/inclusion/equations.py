@@ -25,6 +25,7 @@ from nsode.expr import (
     walk,
 )
 from nsode.inclusion.values import total
+from nsode.ode import RATE_SUFFIX
 from nsode.source import Span
 
 #: ``der(x)`` is the name ``x.rate`` until its equation is solved, and behind it where read.
@@ -33,7 +34,7 @@ Unknown = Name
 
 def derivative_name(state: str) -> str:
     """Return the internal name of the rate of a state."""
-    return f"{state}.rate"
+    return f"{state}{RATE_SUFFIX}"
 
 
 def state_of(unknown: Unknown) -> str:

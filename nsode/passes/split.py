@@ -106,7 +106,7 @@ def split(ode: AugmentedODE) -> AugmentedODE:
     """
     return replace(
         ode,
-        bindings=tuple(chain.from_iterable(map(_split_definition, ode.bindings))),
+        bindings=tuple(chain.from_iterable(map(split_definition, ode.bindings))),
         rates=tuple(chain.from_iterable(map(_split_rate, ode.rates))),
         checks=tuple(chain.from_iterable(map(split_check, ode.checks))),
         states=tuple(map(_split_state, ode.states)),
@@ -114,7 +114,8 @@ def split(ode: AugmentedODE) -> AugmentedODE:
     )
 
 
-def _split_definition(item: Definition) -> Iterable[Definition]:
+def split_definition(item: Definition) -> Iterable[Definition]:
+    """Return the pieces of a definition."""
     match item:
         case Binding(range=None) | LinearSolve(range=None):
             return [map_definition(item, settle)]

@@ -227,4 +227,19 @@ def test_an_expression_that_nobody_knows_is_loud():
 def test_coupled_rates_stay_a_matrix():
     found = explained("cart_pole")
     assert any(isinstance(item, LinearSolve) for item in found.inclusion.bindings)
-    assert "]]*[v.rate, w.rate] = [" in found.text()
+    assert "]]*[der(v), der(w)] = [" in found.text()
+    assert r"\dot{v} \\" in found.latex()
+    assert "rate" not in found.text() + found.latex()
+
+
+def test_the_first_row_of_a_family_of_systems_reads_its_own_element():
+    found = nsode.loads(
+        """model pairs
+state x[i in 1..3] = 0
+state y[i in 1..3] = 0
+for i in 1..3: 2*der(x[i]) + x[i]*der(y[i]) = (if i > 1 then x[i-1] else 0)
+for i in 1..3: x[i]*der(x[i]) + 3*der(y[i]) = 1
+"""
+    ).explain()
+    assert "[[2, x[1]], [x[1], 3]]*[der(x[1]), der(y[1])] = [0, 1]" in found.text()
+    assert "= [x[i-1], 1]  for i in 2..3" in found.text()

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from nsode.expr import TIME
-from nsode.ode import Binding, LinearSolve, Placed, SetValuedTerm, System
+from nsode.ode import RATE_SUFFIX, Binding, LinearSolve, Placed, SetValuedTerm, System
 
 _SMALL = (
     *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa"),
@@ -111,6 +111,8 @@ def _attribute(name: str) -> Symbol:
 
 
 def _component(name: str) -> Symbol:
+    if name.endswith(RATE_SUFFIX):
+        return _component(name.removesuffix(RATE_SUFFIX)).dot
     head, *components = re.split(r"\.|\[|\]\.?", name)
     symbol = word(head)
     return replace(symbol, subscripts=(*symbol.subscripts, *filter(None, components)))
