@@ -214,9 +214,6 @@ def _excerpt(
     return [f"{line:>{width}} | {shown}", f"{'':>{width}} | {_paint(under, style, color)}"]
 
 
-SCHEMA_VERSION = 1
-
-
 def as_json(diagnostics: Sequence[Diagnostic], source: Source) -> dict[str, object]:
     """Return diagnostics as plain data, for editors and scripts."""
 
@@ -229,7 +226,6 @@ def as_json(diagnostics: Sequence[Diagnostic], source: Source) -> dict[str, obje
         }
 
     return {
-        "schema_version": SCHEMA_VERSION,
         "file": source.name,
         "diagnostics": [
             {

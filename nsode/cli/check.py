@@ -12,9 +12,11 @@ from nsode.cli.failure import REFUSED, status_of
 from nsode.cli.model import STANDARD_INPUT, load, summary
 from nsode.cli.options import complete_files, limit_option
 from nsode.cli.terminal import complain, say
-from nsode.diagnostics import SCHEMA_VERSION, Diagnostic, ModelError, as_json, visible
+from nsode.diagnostics import Diagnostic, ModelError, as_json, visible
 from nsode.limits import Limits
 from nsode.source import Source
+
+SCHEMA_VERSION = 1  # of the JSON
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +89,5 @@ def _show(finding: Finding) -> None:
 
 
 def _plain(finding: Finding) -> dict[str, object]:
-    plain = as_json(finding.diagnostics, finding.source)
-    del plain["schema_version"]
-    return plain | {"ok": finding.status == 0, "summary": finding.summary}
+    found = as_json(finding.diagnostics, finding.source)
+    return found | {"ok": finding.status == 0, "summary": finding.summary}
