@@ -16,8 +16,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from nsode.analysis.local import Constants, Local, Scene
+from nsode.analysis.local import Constants, Local
 from nsode.analysis.point import Matrix
+from nsode.analysis.scene import Scene
 from nsode.analysis.sets import CONTACT, STICK, ActiveSet, Mode, matrix
 from nsode.analysis.stability import FASTER, Modes, Worst, sped_up, upper
 from nsode.integrators.verlet import velocities

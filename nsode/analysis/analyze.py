@@ -9,12 +9,12 @@ import numpy as np
 
 from nsode.analysis.elements import Friction, contacts, frictions
 from nsode.analysis.formulas import formulas
-from nsode.analysis.local import Scene
 from nsode.analysis.mass import feeding
 from nsode.analysis.minimality import coinciding, unread_states
 from nsode.analysis.outset import UNDEFINED, at_start, places, preload, unknown
 from nsode.analysis.remarks import unresolved, unstable
 from nsode.analysis.result import Analysis, Unstable
+from nsode.analysis.scene import Scene
 from nsode.analysis.steps import Method, Reachable, reachable, stable_steps
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.integrators import REGISTRY

@@ -7,9 +7,10 @@ from math import isfinite, nan, sqrt
 
 import numpy as np
 
-from nsode.analysis.local import ENDLESS, Constants, Element, Local, Scene
+from nsode.analysis.local import ENDLESS, Constants, Element, Local
 from nsode.analysis.mass import EffectiveMass
 from nsode.analysis.restitution import impact, mapped_restitution
+from nsode.analysis.scene import Scene
 
 #: Below this damping ratio a load near the frequency of stick resonates (NUMERICS 3).
 LEAST_DAMPING = 0.5

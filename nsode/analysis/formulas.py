@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from nsode.analysis.local import Scene
 from nsode.analysis.mass import EffectiveMass, effective_mass
+from nsode.analysis.scene import Scene
 from nsode.expr import TIME, Call, Expr, If, Index, Name, Number, Sum
 from nsode.ode import Binding, DifferentialInclusion, LinearSolve, Placed
 

@@ -11,8 +11,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from nsode.analysis.local import LAW, Element, Local, Scene
+from nsode.analysis.local import LAW, Element, Local
 from nsode.analysis.point import Matrix, Point, Vector, assemble, start
+from nsode.analysis.scene import Scene
 from nsode.analysis.stability import reach, upper
 from nsode.analysis.steps import StableStep
 from nsode.derivative import Jacobian, jacobian

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nsode.analysis.local import Element, Local, Scene
+from nsode.analysis.local import Element, Local
 from nsode.analysis.point import Matrix
 from nsode.analysis.reach import nonnegative_least_squares
+from nsode.analysis.scene import Scene
 from nsode.diagnostics import Diagnostic, Label
 
 _ROUNDING = 1e-12

@@ -7,7 +7,8 @@ from itertools import combinations
 
 import numpy as np
 
-from nsode.analysis.local import Element, Local, Scene
+from nsode.analysis.local import Element, Local
+from nsode.analysis.scene import Scene
 from nsode.ode import AugmentedODE, element_names
 from nsode.passes.prune import prune
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from nsode.analysis.local import ENDLESS, LAW, Constants, Element, Local, Scene
+from nsode.analysis.local import ENDLESS, LAW, Constants, Element, Local
 from nsode.analysis.mass import EffectiveMass, effective_mass, static_load
+from nsode.analysis.scene import Scene
 from nsode.ode import DifferentialInclusion, size
 
 UNDEFINED = "the rates or their derivatives are not finite at the start"

@@ -9,10 +9,10 @@ from math import inf
 import numpy as np
 
 from nsode.analysis import looks
-from nsode.analysis.local import Scene
 from nsode.analysis.mass import feeding
 from nsode.analysis.outset import UNDEFINED, at_start, places, unknown
 from nsode.analysis.remarks import unresolved, unstable
+from nsode.analysis.scene import Scene
 from nsode.analysis.stability import bound, half_disc
 from nsode.analysis.steps import Method, reachable, stable_steps
 from nsode.diagnostics import Diagnostic

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 
 from nsode.analysis.bounces import gate, speeds
 from nsode.analysis.elements import degree, inverse_mass
-from nsode.analysis.local import Scene
 from nsode.analysis.mass import EffectiveMass
 from nsode.analysis.report import active_text
 from nsode.analysis.restitution import mapped_restitution
+from nsode.analysis.scene import Scene
 from nsode.analysis.steps import StableStep
 from nsode.diagnostics import Diagnostic, Label
 from nsode.integrators import REGISTRY, RungeKutta

@@ -9,8 +9,9 @@ from itertools import islice
 import numpy as np
 
 from nsode.analysis import amplification
-from nsode.analysis.local import Constants, Element, Local, Scene
+from nsode.analysis.local import Constants, Element, Local
 from nsode.analysis.reach import conflicts
+from nsode.analysis.scene import Scene
 from nsode.analysis.sets import CONTACT, MOST_SETS, ActiveSet, Family, matrix
 from nsode.analysis.stability import Modes, Worst, bound, half_disc, reach
 from nsode.integrators import Scheme

@@ -42,6 +42,7 @@ def sheet() -> Sheet:
 
 def _text(runs: dict[str, Trajectory], drift: float) -> str:
     rates = {name: _rate(run) for name, run in runs.items()}
+    damper = runs["lugre"].meta["parameters"]["F.B"]
     return f"""\
 After t = 2 s the load swings below the level of friction, and a rigid law does not move at
 all. Mean velocity from {_SETTLED:g} s to {_SECONDS:g} s:
@@ -49,7 +50,7 @@ all. Mean velocity from {_SETTLED:g} s to {_SECONDS:g} s:
 | law | drift |
 |-|-|
 | (18), this method | {rates["xiong2013"]:.1e} m/s |
-| LuGre (12), B = K*beta = 10 N s/m, D = 0 | {rates["lugre"]:.1e} m/s |
+| LuGre (12), B = K*beta = {damper:g} N s/m, D = 0 | {rates["lugre"]:.1e} m/s |
 | Dahl, B = D = 0 | {rates["dahl"]:.1e} m/s |
 
 The paper does not state LuGre's B and D; these reproduce its drift. What is left of (18) is

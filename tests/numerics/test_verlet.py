@@ -8,8 +8,8 @@ import pytest
 import nsode
 from nsode.analysis import sets
 from nsode.analysis.amplification import Split
-from nsode.analysis.local import Scene
 from nsode.analysis.mass import component_names
+from nsode.analysis.scene import Scene
 from nsode.analysis.steps import reachable
 from nsode.backends import c
 from nsode.backends.casadi import functions

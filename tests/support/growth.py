@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import nsode
-from nsode.analysis.local import Element, Scene
+from nsode.analysis.local import Element
+from nsode.analysis.scene import Scene
 from nsode.backends import Options, emit
 from nsode.ode import AugmentedODE, element_names
 

@@ -14,9 +14,9 @@ from scipy.optimize import linprog, nnls
 
 import nsode
 from nsode.analysis import Analysis, analyze, warnings
-from nsode.analysis.local import Scene
 from nsode.analysis.mass import effective_mass
 from nsode.analysis.reach import conflicts, nonnegative_least_squares
+from nsode.analysis.scene import Scene
 from nsode.analysis.sets import MOST_SETS, matrix
 from nsode.analysis.stability import bound, half_disc, radius
 from nsode.analysis.steps import reachable, stable_steps
