@@ -11,6 +11,9 @@ from dataclasses import asdict, dataclass
 #: Later stages walk a tree by recursion, some seven of Python's 1000 frames to a level, and
 #: compilers bound how deep brackets nest. This depth works everywhere, 200 frames below the top.
 DEEPEST = 100
+#: Elements of a family beyond which tables of numbers take gigabytes.
+MOST = 10_000_000
+_GREATEST = {"depth": DEEPEST, "elements": MOST}
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +34,8 @@ class Limits:
     exponent
         The magnitude of a constant exponent (NS013).
     elements
-        Elements of one family, and terms of sums inside each other (NS014).
+        Elements of one family, and terms of sums inside each other (NS014); at most
+        :data:`MOST`.
     sums
         Sums inside each other (NS011).
     vector
@@ -46,7 +50,7 @@ class Limits:
     Raises
     ------
     ValueError
-        For a limit below 1, and for a depth beyond :data:`DEEPEST`.
+        For a limit below 1, and for a depth or elements beyond what can be raised.
     """
 
     size: int = 4 * 1024 * 1024
@@ -66,8 +70,10 @@ class Limits:
         for name, value in asdict(self).items():
             if value < 1:
                 raise ValueError(f"the limit `{name}` is at least 1, not {value}")
-        if self.depth > DEEPEST:
-            raise ValueError(f"the limit `depth` is at most {DEEPEST}, not {self.depth}")
+        for name, greatest in _GREATEST.items():
+            value = getattr(self, name)
+            if value > greatest:
+                raise ValueError(f"the limit `{name}` is at most {greatest:,}, not {value:,}")
 
     @classmethod
     def of(cls, values: Mapping[str, int]) -> Limits:
@@ -91,8 +97,8 @@ class Limits:
         """
         current: int = getattr(self, name)
         value = wanted if wanted > current else 2 * current
-        if name == "depth":
-            value = min(value, DEEPEST) if wanted <= DEEPEST else 0
+        greatest = _GREATEST.get(name, value)
+        value = min(value, greatest) if wanted <= greatest else 0
         return f"raise the limit with `--limit {name}={value}`" if value > current else None
 
 

@@ -44,6 +44,9 @@ def report(error: BaseException) -> int:
             return _BROKEN_PIPE
         case ModuleNotFoundError(name=str(name)) if name in OPTIONAL:
             complain([missing(name)])
+        case MemoryError():
+            message = "this does not fit into the memory of the machine"
+            complain([Diagnostic("NS014", message, help="take fewer elements, or store less")])
         case OSError(filename=None):
             complain([io_diagnostic("NS602", error)])
         case OSError():

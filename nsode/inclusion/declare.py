@@ -231,7 +231,9 @@ def _elements(
         if not math.isfinite(element):
             where = f"for `{over.variable} = {k}`"
             raise refuse("NS116", f"{what} is {in_words(element)} {where}", value.span)
-        found.append(constant(in_si(Number(element, span=value.span), unit), what))
+        if unit is not None:
+            element = constant(in_si(Number(element, span=value.span), unit), what)
+        found.append(element)
     return tuple(found)
 
 

@@ -12,7 +12,7 @@ import pytest
 import nsode
 from nsode.cli import run
 from nsode.diagnostics import ModelError
-from nsode.limits import DEEPEST, Limits
+from nsode.limits import DEEPEST, MOST, Limits
 from nsode.ode import Run
 from nsode.simulate.settings import Wish, settle
 from support.native import build
@@ -151,7 +151,10 @@ def test_every_stage_manages_the_greatest_depth(nest, tmp_path):
 # how limits are given
 
 
-@pytest.mark.parametrize("values", [{"depth": 0}, {"depth": DEEPEST + 1}, {"name": -1}, {"nme": 1}])
+@pytest.mark.parametrize(
+    "values",
+    [{"depth": 0}, {"depth": DEEPEST + 1}, {"elements": MOST + 1}, {"name": -1}, {"nme": 1}],
+)
 def test_a_limit_that_there_is_not_is_refused(values):
     with pytest.raises(ValueError, match="limit"):
         Limits.of(values)
