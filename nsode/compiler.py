@@ -18,7 +18,7 @@ from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.ode import AugmentedODE, DifferentialInclusion, element_names
 from nsode.regularizations import Kind
 from nsode.rewrite import rewrite
-from nsode.rewrite.start import at_start, initial_state
+from nsode.rewrite.start import at_start, initial_state, pressed_at_start
 from nsode.rewrite.switch import with_laws
 from nsode.source import Source
 from nsode.syntax import decode, parse, read
@@ -383,7 +383,8 @@ def _remarks(inclusion: DifferentialInclusion, ode: AugmentedODE) -> tuple[Diagn
     """Return what is to be said of a model under its laws."""
     from nsode.analysis import warnings
 
-    return (*at_start(ode), *warnings(inclusion))
+    pressed = pressed_at_start(inclusion.terms, ode)
+    return (*at_start(ode), *pressed, *warnings(inclusion))
 
 
 @contextmanager

@@ -72,6 +72,7 @@ CODES: dict[str, str] = {
     "NS408": "lightly damped friction",
     "NS409": "impacts not resolved",
     "NS410": "step not checked",
+    "NS411": "start inside a contact",
     # runs
     "NS501": "setting of a run out of range",
     "NS502": "run too large",

@@ -131,14 +131,18 @@ def _elsewhere(along: int) -> str:
 
 def _step(step: StableStep) -> tuple[str, ...]:
     proven = "" if step.proven else " (found)"
-    own = "-" if step.own is None else "no margin" if step.own == 0 else f"{number(step.own)} s"
+    own = "-" if step.own is None else "no margin" if step.own == 0 else _seconds(step.own)
     return (
         step.method,
-        f"{number(step.step)} s{proven}",
+        f"{_seconds(step.step)}{proven}",
         f"{number(step.frequency)} rad/s",
         number(step.damping),
         own,
     )
+
+
+def _seconds(value: float) -> str:
+    return number(value) if value == inf else f"{number(value)} s"
 
 
 def _limited_by(step: StableStep) -> Iterator[str]:

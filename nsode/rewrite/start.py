@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.evaluate import evaluate
 from nsode.expr import TIME, Call, Expr, IndexRange, Name, Sum, children, names
-from nsode.ode import AugmentedODE, Binding, Rate
+from nsode.ode import AugmentedODE, Binding, Rate, SetValuedTerm
 
 #: Families that read each other deeper than this, and sums longer, are not looked into.
 _DEPTH, _LENGTH = 50, 1000
+
+_LOOKS = 1000  # elements of a contact whose gap is looked at
+_ROUNDING = 1e-12  # of the size of its terms: what a gap of zero may differ from zero by
 
 
 class _GiveUpError(Exception):
@@ -44,6 +47,39 @@ def at_start(ode: AugmentedODE) -> tuple[Diagnostic, ...]:
     if errors:
         raise ModelError(errors, ode.source)
     return tuple(found)
+
+
+def pressed_at_start(terms: Sequence[SetValuedTerm], ode: AugmentedODE) -> tuple[Diagnostic, ...]:
+    """Return a warning for each contact that is closed at the start and stores energy there.
+
+    Of a family, the element that is pressed in most is named.
+    """
+    contacts = [term for term in terms if _is_loaded_spring(term)]
+    if not contacts or any(math.isnan(v) for p in ode.parameters for v in p.values):
+        return ()
+    start = _Start.of(ode, missing=math.nan)
+    found = (start.deepest(term) for term in contacts)
+    return tuple(
+        _pressed(term, *deepest)
+        for term, deepest in zip(contacts, found, strict=True)
+        if deepest is not None
+    )
+
+
+def _is_loaded_spring(term: SetValuedTerm) -> bool:
+    return term.kind == "dio" and not term.approximation.at_equilibrium
+
+
+def _pressed(term: SetValuedTerm, gap: float, at: int | None) -> Diagnostic:
+    name = term.name if at is None else f"{term.name}[{at}]"
+    return Diagnostic(
+        "NS411",
+        f"the scene starts inside the contact `{name}`, whose gap is {gap:.3g}",
+        (Label(term.argument[0].span, "negative at the start"),),
+        notes=("the approximation throws it out, as a compressed spring does",),
+        help="start where no gap is negative; `at equilibrium` holds what rests on a contact",
+        severity="warning",
+    )
 
 
 def initial_state(ode: AugmentedODE) -> list[float]:
@@ -137,6 +173,28 @@ class _Start:
         if id(expr) not in self.long:
             self.long[id(expr)] = _terms(expr) > _LENGTH
         return self.long[id(expr)]
+
+    def deepest(self, term: SetValuedTerm) -> tuple[float, int | None] | None:
+        """Return the most negative gap of a contact beyond rounding, and its element."""
+        (gap,), over = term.argument, term.range
+        found: tuple[float, int | None] = 0.0, None
+        for at in [None] if over is None else range(over.first, over.last + 1)[:_LOOKS]:
+            indices = {} if over is None or at is None else {over.variable: at}
+            try:
+                value = self.value(gap, indices)
+                if value < min(found[0], -_ROUNDING * self._size(gap, indices)):
+                    found = value, at
+            except _GiveUpError:
+                continue
+        return found if found[0] < 0 else None
+
+    def _size(self, expr: Expr, indices: dict[str, int]) -> float:
+        """Return the size of what a value is the sum of, looking through one name."""
+        match expr:
+            case Name(id, None) if len(self.formulas.get(id, ())) == 1:
+                ((expr, _),) = self.formulas[id]
+        terms = expr.args if isinstance(expr, Call) and expr.function == "+" else (expr,)
+        return sum(abs(self.value(term, indices)) for term in terms)
 
     def culprit(self, expr: Expr, indices: dict[str, int]) -> Expr | None:
         """Return the innermost part that is not finite though what it reads is."""

@@ -78,11 +78,24 @@ def more(trajectory: Trajectory) -> int:
 
 
 def shares(trajectory: Trajectory) -> Iterator[str]:
-    """Yield what each element did, in percent of the rows."""
+    """Yield what each element did, in percent of the rows, and by how much it gave way."""
     for name in trajectory.mode_names[:_SHOWN]:
         found = np.bincount(trajectory.mode(name), minlength=len(Mode)) / len(trajectory)
         parts = [f"{mode.name.lower()} {100 * found[mode]:.3g} %" for mode in Mode if found[mode]]
-        yield f"{name}: {', '.join(parts)}"
+        yield ", ".join([f"{name}: {parts[0]}", *parts[1:], *_yielded(trajectory, name)])
+
+
+def _yielded(trajectory: Trajectory, element: str) -> Iterator[str]:
+    """Yield how far an element is from the rigid one; a K that is too low shows here."""
+    if element in trajectory.psi_names:
+        word, most = "deepest", -np.min(trajectory.psi[:, trajectory.psi_names.index(element)])
+    else:
+        state, names = f"{element}.a", trajectory.x_names
+        places = [k for k, n in enumerate(names) if n == state or n.startswith(f"{state}.")]
+        strain = np.linalg.norm(trajectory.x[:, places], axis=1)
+        word, most = "presliding", np.max(strain)
+    if most > 0:
+        yield f"{word} {most:.3g}"
 
 
 def quantity(seconds: float) -> str:
@@ -95,7 +108,10 @@ def quantity(seconds: float) -> str:
 
 def _chosen(trajectory: Trajectory) -> list[str]:
     auxiliary = set(trajectory.meta.get("auxiliary", ()))
-    return [name for name in trajectory.x_names if name not in auxiliary] + list(trajectory.y_names)
+    names = [name for name in trajectory.x_names if name not in auxiliary]
+    names += trajectory.y_names
+    # Where not all are shown, the elements of families make way for what stands alone.
+    return sorted(names, key=lambda name: "[" in name) if len(names) > _SHOWN else names
 
 
 def _row(trajectory: Trajectory, name: str) -> Row:

@@ -471,3 +471,16 @@ simulate 0.5 step 1e-4
     assert here["at"] == "the start"
     assert there["at"] == "the start and 51 states"
     assert there["stable_step"]["rk4"] < here["stable_step"]["rk4"]
+
+
+def test_a_limit_that_there_is_not_has_no_unit() -> None:
+    text = """model falling
+state z = 1
+state v = 0
+der(z) = v
+der(v) = 2*z - sgn(v)
+approximate default sgn: K = 1e5, beta = 4e-3
+"""
+    rows = str(nsode.loads(text).analyze()).splitlines()
+    [own] = [row.split()[-1] for row in rows if row.split()[:1] == ["verlet"]]
+    assert own == "none"  # z grows by itself, and no step can change that

@@ -7,6 +7,7 @@ import pytest
 from nsode.diagnostics import Diagnostic, ModelError
 from support.reading import compiled, refused, remarks
 
+CONSTANTS = "approximate default dio: K = 1e5, beta = 4e-3, alpha = 2e-3"
 HEAD = ("state p = 1", "state v = 1", "der(p) = v")
 
 
@@ -29,6 +30,8 @@ def errors(*lines: str) -> list[Diagnostic]:
         (["parameter F = 1", "parameter M = 2", "der(v) = -F/M*sgn(v)"], "NS405"),
         (["der(v) = 1/(p - 1)"], "NS406"),
         (["let q = log(p - 2)", "der(v) = q"], "NS406"),
+        (["force N = dio(p - 1.5)", "der(v) = N", CONSTANTS], "NS411"),
+        (["let gap = p - 2", "der(v) = dio(gap)", CONSTANTS], "NS411"),
     ],
 )
 def test_is_remarked(lines: list[str], code: str) -> None:
@@ -45,10 +48,25 @@ def test_is_remarked(lines: list[str], code: str) -> None:
         ["der(v) = 0", "simulate 0.3 step 0.1"],
         ["der(v) = 0", "simulate 1 {min} step 1 {ms}"],
         ["der(v) = 1/(p + 1)"],
+        ["der(v) = dio(p - 1.5)", f"{CONSTANTS}, at equilibrium"],
+        ["der(v) = dio(p - 0.1 - 0.2 - 0.3 - 0.4)", CONSTANTS],  # -6e-17
+        ["let gap = p - 0.9 - 0.1", "der(v) = dio(gap)", CONSTANTS],
+        ["state q = -9.81*2/N.K", "der(q) = 0", "force N = dio(q)", "der(v) = N"],
     ],
 )
 def test_is_not_remarked(lines: list[str]) -> None:
     assert remarks(*HEAD, *lines) == []
+
+
+def test_the_element_that_starts_deepest_inside_is_named() -> None:
+    [found] = compiled(
+        "state x[i in 1..4] = 0.1*(3 - i)^2",
+        "force N[i in 1..4] = dio(x[i] - 0.05)",
+        "for i in 1..4: der(x[i]) = N[i]",
+        CONSTANTS,
+    ).diagnostics
+    assert (found.code, found.severity) == ("NS411", "warning")
+    assert found.message == "the scene starts inside the contact `N[3]`, whose gap is -0.05"
 
 
 def test_a_misspelt_name_gets_a_suggestion() -> None:

@@ -253,6 +253,37 @@ def test_a_trajectory_shows_itself_as_text_and_html(sphere):
     assert "v.x" in sphere._repr_html_()
 
 
+def test_a_summary_tells_how_far_each_element_gives_way():
+    run = nsode.loads("""
+model heavy
+state p = -9.81/N.K
+state w = 0
+state v[2] = [3, 4]
+force N = dio(p)
+force F = 2*sgn(v)
+der(p) = w
+der(w) = N - 9.81
+der(v) = -F
+approximate N: K = 1e5, beta = 4e-3, alpha = 2e-3, at equilibrium
+approximate F: K = 1e3, beta = 4e-2
+simulate 1 step 1e-3
+""").simulate()
+    assert str(run).splitlines()[-2:] == [
+        "  N: contact 100 %, deepest 9.81e-05",  # M*g/K
+        "  F: slip 100 %, presliding 0.002",  # the level of friction over K
+    ]
+
+
+def test_a_long_summary_begins_with_what_is_no_element_of_a_family():
+    text = "state x[i in 1..40] = i\nfor i in 1..40: der(x[i]) = -x[i]\n"
+    mean = "output mean = sum(i in 1..40: x[i])/40\n"
+    run = nsode.loads(f"model many\n{text}{mean}simulate 1 step 0.1\n").simulate()
+    _, _, first, second, *_, last = str(run).splitlines()
+    assert first.split()[:2] == ["mean", "20.5"]
+    assert second.split()[:2] == ["x[1]", "1"]
+    assert last == "  and 25 more"
+
+
 # the command
 
 
