@@ -10,9 +10,10 @@ from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
 from nsode.evaluate import apply, evaluate
 from nsode.expr import Call, Expr, Index, IndexRange, Name, Number, names, walk
 from nsode.inclusion.definitions import written_names
-from nsode.inclusion.elaborate import elaborate, number
+from nsode.inclusion.elaborate import elaborate
 from nsode.inclusion.fitting import declared_shape, fitted
 from nsode.inclusion.indices import index_range, integer
+from nsode.inclusion.kinds import number
 from nsode.inclusion.order import loop, order
 from nsode.inclusion.report import Report, in_a_circle
 from nsode.inclusion.review import Review, in_words

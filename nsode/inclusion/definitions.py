@@ -7,10 +7,11 @@ from dataclasses import dataclass, field, fields, replace
 
 from nsode.diagnostics import ModelError, refuse
 from nsode.expr import Expr, Name, Number
-from nsode.inclusion.elaborate import elaborate, number
+from nsode.inclusion.elaborate import elaborate
 from nsode.inclusion.fitting import declared_shape, fitted
 from nsode.inclusion.hoist import Hoister, RawTerm
 from nsode.inclusion.indices import index_range
+from nsode.inclusion.kinds import number
 from nsode.inclusion.order import loop, order
 from nsode.inclusion.report import Report, in_a_circle
 from nsode.inclusion.review import Review

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import reduce
 
 from nsode.diagnostics import ModelError, refuse
-from nsode.expr import FUNCTIONS, TIME, Call, Expr, If, Index, IndexRange, Name, Number, Sum, negate
-from nsode.inclusion import values
+from nsode.expr import TIME, Call, Expr, If, Index, IndexRange, Name, Number, Sum
+from nsode.inclusion.apply import apply
+from nsode.inclusion.functions import SET_VALUED, check_call
 from nsode.inclusion.indices import index, index_range
+from nsode.inclusion.kinds import is_condition, number
 from nsode.inclusion.report import PoisonedError
-from nsode.inclusion.symbols import CALLABLE, INTERNAL, SET_VALUED, Scope, Symbol, unknown_function
+from nsode.inclusion.symbols import Scope, Symbol
 from nsode.inclusion.values import (
     Shape,
     ShapeError,
@@ -19,7 +20,6 @@ from nsode.inclusion.values import (
     describe,
     each,
     from_scalars,
-    is_zero,
     scalars,
     shape,
     suffixes,
@@ -78,25 +78,6 @@ def scalar(expr: Expr, scope: Scope, what: str) -> Expr:
     return number(value, what)
 
 
-def number(value: Expr, what: str = "this") -> Expr:
-    """Refuse a condition where a number is wanted.
-
-    Raises
-    ------
-    ModelError
-        NS117.
-    """
-    if is_condition(value):
-        raise refuse(
-            "NS117",
-            f"{what} must be a number",
-            value.span,
-            "this is true or false",
-            help="write `if ... then 1 else 0`",
-        )
-    return value
-
-
 def condition(expr: Expr, scope: Scope) -> Expr:
     """Return the value of an expression that must be true or false.
 
@@ -115,13 +96,6 @@ def condition(expr: Expr, scope: Scope) -> Expr:
             help="compare it, for example `... > 0`",
         )
     return value
-
-
-def is_condition(expr: Expr) -> bool:
-    """Tell whether an expression is true or false rather than a number."""
-    return (
-        isinstance(expr, Call) and expr.function in FUNCTIONS and (FUNCTIONS[expr.function].boolean)
-    )
 
 
 def components(name: str, of: Shape, at: Index | None, span_of: Expr) -> Value:
@@ -261,8 +235,7 @@ def _reduction(expr: Reduction, scope: Scope) -> Value:
 
 
 def _call(expr: Call, scope: Scope) -> Value:
-    if (expr.function not in FUNCTIONS and expr.function not in CALLABLE) or _is_internal(expr):
-        raise unknown_function(expr)
+    check_call(expr)
     if expr.function == "der":
         return scope.derivative(expr, scope)
     if expr.function in SET_VALUED:
@@ -275,81 +248,6 @@ def _call(expr: Call, scope: Scope) -> Value:
         )
     args = tuple(elaborate(arg, scope) for arg in expr.args)
     try:
-        return _apply(expr, args)
+        return apply(expr, args)
     except ShapeError as error:
         raise refuse("NS105", str(error), expr.span) from None
-
-
-def _is_internal(call: Call) -> bool:
-    """Tell whether a person wrote the name of a function that the language does not have."""
-    if call.function == "neg":  # a sign ends where its operand does, a call behind it
-        return call.span.end != call.args[-1].span.end
-    return call.function in INTERNAL
-
-
-def _apply(expr: Call, args: tuple[Value, ...]) -> Value:
-    match expr.function, args:
-        case "+", _:
-            result = values.plus(tuple(each(number, arg) for arg in args))
-            return replace(result, span=expr.span) if isinstance(result, Expr) else result
-        case "neg", (inner,):
-            return each(lambda part: replace(negate(number(part)), span=expr.span), inner)
-        case "*", (left, right):
-            result = values.times(each(number, left), each(number, right))
-            return replace(result, span=expr.span) if isinstance(result, Expr) else result
-        case "/", (left, right):
-            return _quotient(expr, left, right)
-        case "dot", (left, right):
-            return values.dot(left, right)
-        case "cross", (left, right):
-            return values.cross(left, right)
-        case "qmul", (left, right):
-            return values.qmul(left, right)
-        case "transpose", (inner,):
-            return values.transpose(inner)
-        case "norm", (inner,):
-            return values.norm(inner)
-    return _scalar_function(expr, args)
-
-
-def _quotient(expr: Call, left: Value, right: Value) -> Value:
-    if not isinstance(right, Expr):
-        raise ShapeError("only a scalar can divide")
-    divisor = number(right)
-    if isinstance(left, Expr):
-        return Call("/", (number(left), divisor), span=expr.span)
-
-    def divided(part: Expr) -> Expr:
-        return part if is_zero(part) else Call("/", (number(part), divisor), span=expr.span)
-
-    return each(divided, left)
-
-
-def _scalar_function(expr: Call, args: tuple[Value, ...]) -> Expr:
-    name = expr.function
-    wanted = {"dot": 2, "cross": 2, "qmul": 2, "transpose": 1, "norm": 1}.get(
-        name, FUNCTIONS[name].arity if name in FUNCTIONS else 1
-    )
-    chained = name in {"min", "max"} and len(args) >= 2
-    if wanted is not None and len(args) != wanted and not chained:
-        plural = "argument" if wanted == 1 else "arguments"
-        raise refuse(
-            "NS110", f"`{name}` takes {wanted} {plural}", expr.span, f"here it has {len(args)}"
-        )
-    flat: list[Expr] = []
-    for arg, written in zip(args, expr.args, strict=True):
-        if not isinstance(arg, Expr):
-            raise refuse(
-                "NS105", f"`{name}` takes scalars", written.span, f"this is {describe(shape(arg))}"
-            )
-        if name in {"and", "or", "not"}:
-            if not is_condition(arg):
-                raise refuse(
-                    "NS117", f"`{name}` takes conditions", written.span, "this is a number"
-                )
-        else:
-            number(arg, f"an argument of `{name}`")
-        flat.append(arg)
-    if chained:
-        return reduce(lambda a, b: Call(name, (a, b), span=expr.span), flat)
-    return Call(name, tuple(flat), span=expr.span)

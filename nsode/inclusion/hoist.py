@@ -8,8 +8,8 @@ from typing import Literal
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse
 from nsode.expr import FUNCTIONS, Call, Expr, If, Name, rebuild
+from nsode.inclusion.functions import ARITY, check_call, unknown_function
 from nsode.inclusion.products import Friction, Item, flatten, fold, friction, is_sgn
-from nsode.inclusion.symbols import CALLABLE, unknown_function
 from nsode.source import Source, Span
 from nsode.syntax.ast import (
     Bracket,
@@ -79,7 +79,7 @@ class Hoister:
 
     def _no_term(self, force: ForceDeclaration) -> ModelError:
         for call in _calls(force.value):
-            if call.function not in CALLABLE and call.function not in FUNCTIONS:
+            if call.function not in ARITY and call.function not in FUNCTIONS:
                 return unknown_function(call)
         text = self.source.on_one_line(Span(force.declarator.span.start, force.span.end))
         return refuse(
@@ -169,10 +169,7 @@ class _Walk:
         self, kind: Literal["dio", "sgn"], call: Call, factor: Expr | None, span: Span
     ) -> Expr:
         """Keep a term; return what takes its place."""
-        if len(call.args) != 1:
-            raise refuse(
-                "NS110", f"`{kind}` takes one argument", call.span, f"here it has {len(call.args)}"
-            )
+        check_call(call)
         argument = call.args[0]
         inside = _Walk(self.range)
         inside.visit(argument)

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 from nsode.expr import Index, Name
 from nsode.inclusion.definitions import Definitions
-from nsode.inclusion.elaborate import elaborate, number
+from nsode.inclusion.elaborate import elaborate
 from nsode.inclusion.fitting import declared_shape, fitted
 from nsode.inclusion.indices import index_range
+from nsode.inclusion.kinds import number
 from nsode.inclusion.review import Review
 from nsode.inclusion.symbols import Scope, Symbols
 from nsode.inclusion.units import in_si

@@ -8,9 +8,10 @@ from nsode import derivative as moving
 from nsode.diagnostics import ModelError, refuse
 from nsode.expr import TIME, Call, Expr, Index, Name, names
 from nsode.inclusion.definitions import Definitions
-from nsode.inclusion.elaborate import elaborate, number
+from nsode.inclusion.elaborate import elaborate
 from nsode.inclusion.equations import Row, derivative_name, is_unknown, row
 from nsode.inclusion.indices import index_range
+from nsode.inclusion.kinds import number
 from nsode.inclusion.order import deepest_first
 from nsode.inclusion.report import Report
 from nsode.inclusion.review import Review
@@ -69,10 +70,6 @@ class Rows:
             self.rows.append(row(one, other, over, equation.span))
 
     def _derivative(self, call: Call, scope: Scope) -> Value:
-        if len(call.args) != 1:
-            raise refuse(
-                "NS110", "`der` takes one argument", call.span, f"here it has {len(call.args)}"
-            )
         value = elaborate(call.args[0], scope)
         parts = scalars(value)
         if any(is_unknown(name) for part in parts for name in names(part)):

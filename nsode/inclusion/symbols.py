@@ -7,34 +7,12 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from nsode.diagnostics import Diagnostic, Label, ModelError, refuse, suggest
-from nsode.expr import FUNCTIONS, TIME, Call, IndexRange
+from nsode.expr import TIME, Call, IndexRange
+from nsode.inclusion.functions import ARITY, SET_VALUED
 from nsode.inclusion.report import PoisonedError
 from nsode.inclusion.values import Shape, Value
 from nsode.limits import Limits
 from nsode.source import Span
-
-#: Functions of vectors and of the language, beside those of scalars.
-VECTOR_FUNCTIONS = {"dot", "cross", "transpose", "qmul"}
-SET_VALUED = {"dio", "sgn"}
-#: Functions of the ODE that no person writes.
-INTERNAL = {"shrink", "sat"}
-CALLABLE = (
-    ({name for name in FUNCTIONS if name.isalnum()} - {"neg", "and", "or", "not"} - INTERNAL)
-    | VECTOR_FUNCTIONS
-    | SET_VALUED
-    | {"der"}
-)
-
-#: What functions of other languages, whose names are near to none or to a wrong one, are here.
-_ELSEWHERE = {
-    "ddt": "der(x)",
-    "hypot": "norm([a, b])",
-    "ln": "log(x)",
-    "log10": "log(x)/log(10)",
-    "pow": "a^b",
-    "sign": "sgn(x)",
-    "signum": "sgn(x)",
-}
 
 Derivative = Callable[["Call", "Scope"], Value]
 
@@ -159,7 +137,7 @@ def _reserved(name: str) -> str | None:
         return "it is the time"
     if name == "pi":
         return "it is the number 3.14159..."
-    if name in CALLABLE:
+    if name in ARITY:
         return "it is a built-in function"
     if name[:3] in SET_VALUED and name[3:].isdecimal():
         return "names like it are given to set-valued terms that stand inline"
@@ -193,19 +171,3 @@ class Scope:
         if range is None:
             return self
         return replace(self, indices={**self.indices, range.variable: range})
-
-
-def unknown_function(call: Call) -> ModelError:
-    """Return the error for a function that there is not."""
-    ours = _ELSEWHERE.get(call.function)
-    return ModelError(
-        [
-            Diagnostic(
-                "NS104",
-                f"there is no function `{call.function}`",
-                (Label(call.span, "unknown function"),),
-                notes=("the functions are " + ", ".join(sorted(CALLABLE)),),
-                help=f"write `{ours}`" if ours else suggest(call.function, CALLABLE),
-            )
-        ]
-    )
