@@ -191,10 +191,7 @@ class Model:
         """
         from nsode.passes.prune import prune
 
-        try:
-            return replace(self, ode=prune(self.ode, outputs))
-        except ValueError as error:
-            raise ModelError([Diagnostic("NS101", str(error))], self.source) from None
+        return replace(self, ode=prune(self.ode, outputs))
 
     def with_ledger(self) -> Model:
         """Return the model with the energy of each element as further outputs.
@@ -217,11 +214,7 @@ class Model:
         from nsode.passes.bake import bake
 
         chosen = self.with_parameters(values)
-        try:
-            return replace(chosen, ode=bake(chosen.ode, values))
-        except KeyError as error:
-            message = f"{error} is no scalar parameter: only these can be baked"
-            raise ModelError([Diagnostic("NS101", message)], self.source) from None
+        return replace(chosen, ode=bake(chosen.ode, values))
 
     def casadi(self, method: str = "rk4") -> CasadiModel:
         """Return CasADi functions ``rhs``, ``out``, ``step`` and ``init``; needs casadi.

@@ -14,7 +14,6 @@ from nsode.cli.failure import writing
 from nsode.cli.model import summary
 from nsode.cli.options import folder_option, named, with_model
 from nsode.cli.terminal import bold, complain, quiet, say, typed
-from nsode.diagnostics import ModelError
 from nsode.ode import Placed
 from nsode.passes.count import operations
 
@@ -82,7 +81,7 @@ def command(
         model = model.with_ledger()
     whole = model
     if outputs is not None:
-        model = _only(model, outputs)
+        model = model.only(outputs)
     if bake:
         model = model.baked(bake)
     options = Options(prefix=prefix, real=cast(Literal["double", "float"], real))
@@ -93,14 +92,6 @@ def command(
         _show_reduction(whole, model, bake)
     _show(paths)
     return 0
-
-
-def _only(model: Model, outputs: list[str]) -> Model:
-    try:
-        return model.only(outputs)
-    except ModelError as error:
-        message = error.diagnostics[0].message
-        raise click.BadParameter(message, param_hint="`--outputs`") from error
 
 
 def _size(model: Model) -> str:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 
+from nsode.diagnostics import Diagnostic, ModelError, suggest
 from nsode.evaluate import apply
 from nsode.expr import FUNCTIONS, Call, Expr, If, Name, Number, rebuild
 from nsode.ode import AugmentedODE, Check, Parameter
@@ -20,11 +21,16 @@ def bake(ode: AugmentedODE, names: Collection[str]) -> AugmentedODE:
 
     Raises
     ------
-    KeyError
-        If a name is no scalar parameter.
+    ModelError
+        NS101 for a name that is no scalar parameter.
     """
-    items = {item.name: item for item in ode.parameters if item.range is None}
-    values = {name: items[name].values[0] for name in names}
+    known = {item.name: item.values[0] for item in ode.parameters if item.range is None}
+    for name in names:
+        if name not in known:
+            message = f"`{name}` is no scalar parameter: only these can be baked"
+            hint = suggest(name, known)
+            raise ModelError([Diagnostic("NS101", message, help=hint)], ode.source)
+    values = {name: known[name] for name in names}
     baked = map_expressions(ode, lambda expr: fold(expr, values))
     parameters = tuple(_settled(p) for p in baked.parameters if p.name not in values)
     checks = tuple(check for check in baked.checks if not _holds(check))

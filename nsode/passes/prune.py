@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
+from nsode.diagnostics import Diagnostic, ModelError, suggest
 from nsode.expr import Expr, Name, children
 from nsode.ode import AugmentedODE, Definition, Placed, defined, expressions
 
@@ -62,8 +63,8 @@ def prune(ode: AugmentedODE, outputs: Iterable[str] | None = None) -> AugmentedO
 
     Raises
     ------
-    ValueError
-        If a name is neither a state nor an output.
+    ModelError
+        NS101 for a name that is neither a state nor an output.
     """
     if outputs is not None:
         ode = _restrict(ode, tuple(outputs))
@@ -77,10 +78,12 @@ def prune(ode: AugmentedODE, outputs: Iterable[str] | None = None) -> AugmentedO
 
 
 def _restrict(ode: AugmentedODE, asked: tuple[str, ...]) -> AugmentedODE:
+    placed: tuple[Placed, ...] = (*ode.states, *ode.outputs)
     for name in asked:
-        placed: tuple[Placed, ...] = (*ode.states, *ode.outputs)
         if not any(_selects(name, item) for item in placed):
-            raise ValueError(f"`{name}` is neither a state nor an output")
+            message = f"`{name}` is neither a state nor an output"
+            hint = suggest(name, (item.name for item in placed))
+            raise ModelError([Diagnostic("NS101", message, help=hint)], ode.source)
     outputs = tuple(y for y in ode.outputs if any(_selects(name, y) for name in asked))
     graph = _dependencies(ode)
     wanted = reads(*(y.value for y in outputs))

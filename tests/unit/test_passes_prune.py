@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import nsode
+from nsode.diagnostics import ModelError
 from nsode.expr import Name
 from nsode.ode import Binding, Output, Rate, State
 from nsode.passes.prune import prune
@@ -65,5 +66,5 @@ def test_a_coupled_state_stays():
 
 def test_a_misspelt_name_is_refused():
     scene = ode(states=[State("x", num(0))], outputs=[Output("y", plus(Name("x"), 1))])
-    with pytest.raises(ValueError, match="`z` is neither"):
+    with pytest.raises(ModelError, match="`z` is neither"):
         prune(scene, ["y", "z"])

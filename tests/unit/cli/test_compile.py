@@ -67,9 +67,11 @@ def test_what_is_baked_in_is_said_with_its_unit(tmp_path, capsys):
     assert told[2] == "  baked in: M = 2.0 kg, mu = 0.25, N.K = 100000.0 N/m"
 
 
-def test_an_output_that_there_is_not_is_wrong_usage(sound, tmp_path, capsys):
-    assert run(["compile", str(sound), "-o", str(tmp_path / "out"), "--outputs", "zz"]) == 2
-    assert "`zz`" in capsys.readouterr().err
+@pytest.mark.parametrize("option", [["--outputs", "M1"], ["--bake", "M1=2"]])
+def test_what_there_is_not_can_neither_be_kept_nor_baked(sound, tmp_path, option, capsys):
+    assert run(["compile", str(sound), "-o", str(tmp_path / "out"), *option]) == 1
+    assert "error[NS101]" in (told := capsys.readouterr().err)
+    assert "`M1`" in told
     assert not (tmp_path / "out").exists()
 
 
