@@ -219,7 +219,8 @@ class Model:
     def casadi(self, method: str = "rk4") -> CasadiModel:
         """Return CasADi functions ``rhs``, ``out``, ``step`` and ``init``; needs casadi.
 
-        ``step`` is one step of ``method``, an explicit Runge-Kutta method by name.
+        ``step`` is one step of ``method``, an explicit Runge-Kutta method by name. What is
+        returned goes on to ``casadi.integrator``, do-mpc and acados.
         """
         from nsode.backends.casadi import functions
 

@@ -21,6 +21,7 @@ LIBRARIES = {
 }
 OPTIONAL = {
     "casadi": "-t casadi, optimization, CVODES",
+    "do-mpc": "predictive control through CasADi",
     "sympy": "symbols to explore",
     "pint": "checks units beside those of SI",
     "scipy": "its integrators",

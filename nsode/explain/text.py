@@ -7,6 +7,7 @@ from math import isnan
 from typing import TYPE_CHECKING
 
 from nsode.explain.closed import Value, rates, values
+from nsode.explain.constants import Constant, constants
 from nsode.explain.definitions import behind, fixed
 from nsode.explain.plain import number, over, plain
 from nsode.expr import Expr, Index, IndexRange, Name, Number, multiply
@@ -71,11 +72,11 @@ def _lines(explanation: Explanation, head: Callable[[str], str]) -> Iterator[str
     states = "state" if own == 1 else "states"
     yield head(f"The augmented ODE, as in (32): {own} {states} and {appended} appended")
     yield from _closed(explanation)
-    constants = list(_constants(explanation))
-    if constants:
+    rows = list(_constants(explanation))
+    if rows:
         yield ""
         yield head("Constants")
-        yield from _table(constants)
+        yield from _table(rows)
 
 
 def _closed(explanation: Explanation) -> Iterator[str]:
@@ -160,19 +161,15 @@ def _appended(rate: Rate, step: Step) -> Row:
 
 
 def _constants(explanation: Explanation) -> Iterator[Row]:
-    """Yield the constants of each element, elements with equal constants together."""
-    groups: dict[str, list[str]] = {}
-    for step in explanation.steps:
-        own = [p for p in explanation.ode.parameters if p.constant_of == step.term.name]
-        shown = [f"{p.name.rpartition('.')[2]} = {_constant(p.values[0])}" for p in own]
-        groups.setdefault(", ".join(shown), []).append(step.term.name)
-    for constants, terms in groups.items():
-        if constants:
-            yield f"{', '.join(terms)}:", constants, ""
+    for group, terms in constants(explanation).items():
+        shown = ", ".join(map(_constant, group))
+        yield f"{', '.join(terms)}:", shown, ""
 
 
-def _constant(value: float) -> str:
-    return "not given" if isnan(value) else number(value)
+def _constant(item: Constant) -> str:
+    if isnan(item.value):
+        return f"{item.name} not given"
+    return f"{item.name} = {number(item.value)} {item.unit}".rstrip()
 
 
 #: A left side beyond this many characters does not push the others to the right.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from math import isnan
 from typing import TYPE_CHECKING
 
 from nsode.backends.latex import DOCUMENT, Environment, lower
@@ -18,9 +19,11 @@ from nsode.backends.latex.equations import (
     state_space,
     vector,
 )
-from nsode.backends.latex.names import escape
+from nsode.backends.latex.names import escape, unit, word
 from nsode.explain.closed import Value, rates, values
+from nsode.explain.constants import Constant, constants
 from nsode.explain.definitions import behind
+from nsode.expr import Number
 from nsode.ode import Definition
 
 if TYPE_CHECKING:
@@ -78,6 +81,10 @@ def _parts(explanation: Explanation, style: Style) -> Iterator[str]:
     yield style.display.format(columns(rates(explanation), "=", env))
     rows = [row for item in values(explanation) for row in _definition(item, env)]
     yield from _where([aligned(rows)] if rows else [], style)
+    given = list(_constants(explanation, env))
+    if given:
+        yield style.heading.format("Constants")
+        yield style.display.format(aligned(given))
 
 
 def _where(equations: Iterable[str], style: Style) -> Iterator[str]:
@@ -115,6 +122,20 @@ def _forces(step: Step, env: Environment) -> str:
     if len(found) == 1:
         return _equation(found[0], env, " = ") + tag
     return aligned(_equation(item, env, " &= ") for item in found) + tag
+
+
+def _constants(explanation: Explanation, env: Environment) -> Iterator[str]:
+    for group, terms in constants(explanation).items():
+        of = ", ".join(str(env.symbols.get(name, word(name))) for name in terms)
+        shown = r", \; ".join(_constant(item, env) for item in group)
+        yield rf"{of} &: \quad {shown}"
+
+
+def _constant(item: Constant, env: Environment) -> str:
+    if isnan(item.value):
+        return rf"{word(item.name)} \text{{ not given}}"
+    measured = rf" \, {unit(item.unit)}" if item.unit else ""
+    return f"{word(item.name)} = {lower(Number(item.value), env)}{measured}"
 
 
 def _appended(explanation: Explanation, env: Environment) -> Iterator[str]:

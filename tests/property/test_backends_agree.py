@@ -175,6 +175,22 @@ def test_random_texts_have_one_right_hand_side(first, tmp_path):
     assert compared > 3 * states  # of 5 points each: most are no poles
 
 
+@pytest.mark.parametrize("first", range(0, EXACT, BATCH))
+def test_random_texts_have_one_jacobian(first):
+    """CasADi derives the operations; nsode derives the expressions and shares what is common."""
+    for seed, ode in accepted(range(first, min(first + BATCH, EXACT))):
+        module, n = load_module(ode), len(element_names(ode.states))
+        x = module.init() + 0.3 * np.random.default_rng(seed).normal(size=n)
+        u = np.nan_to_num(module.u0)
+        expected = slopes(ode)(0.3, x, u, module.p0)
+        found = np.zeros((n, n))
+        columns = np.repeat(np.arange(n), np.diff(module.jac_columns))
+        found[module.jac_rows, columns] = module.jac(0.3, x, u, module.p0)
+        fine = np.isfinite(expected) & (np.abs(expected) < 1e100)
+        largest = np.abs(expected[fine]).max(initial=1.0)
+        assert np.all(np.abs(found[fine] - expected[fine]) <= 1e-9 * largest), ode.source.text
+
+
 ROUNDED = re.compile(r"\b(a?sin|a?cos|a?tan|atan2|[sct]\w+h|exp|log|pow)f?\(")
 
 

@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 import nsode
+from nsode.backends.latex.names import unit
 from nsode.cli.explain import command
 from nsode.evaluate import Lookup, evaluate
 from nsode.explain import Explanation, explain
@@ -119,7 +120,20 @@ def test_a_model_without_terms_is_explained_too():
 
 def test_constants_that_nobody_gave_are_named_as_such():
     found = of("model m\nstate p = 1\nstate v = 0\nforce N = dio(p)\nder(p) = v\nder(v) = N\n")
-    assert "N: K = not given, alpha = not given, beta = not given" in found.text()
+    assert "N: K not given, alpha not given, beta not given" in found.text()
+    assert r"N &: \quad K \text{ not given}, \; \alpha \text{ not given}" in found.latex()
+
+
+@pytest.mark.parametrize(
+    ("shown", "tex"),
+    [
+        ("N/m", r"\mathrm{N/m}"),
+        ("kg*m^2/s^-2", r"\mathrm{kg \, m^{2}/s^{-2}}"),
+        ("m_%", r"\mathrm{m\_\%}"),
+    ],
+)
+def test_units_are_set_upright(shown, tex):
+    assert unit(shown) == tex
 
 
 OTHER_LAWS = """model box

@@ -78,6 +78,17 @@ def escape(text: str) -> str:
     return re.sub(r"[^A-Za-z0-9.]", lambda match: _escaped(match[0]), text)
 
 
+def unit(text: str) -> str:
+    """Return a unit such as ``kg*m^2/s`` set upright."""
+    parts = re.split(r"(\*|\^-?\d+)", text)  # every second one is an operator
+    shown = (_operator(part) if k % 2 else escape(part) for k, part in enumerate(parts))
+    return rf"\mathrm{{{''.join(shown)}}}"
+
+
+def _operator(part: str) -> str:
+    return r" \, " if part == "*" else f"^{{{part[1:]}}}"
+
+
 def _escaped(character: str) -> str:
     if character in "_#$%&{} ":
         return f"\\{character}"
