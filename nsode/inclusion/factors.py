@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from itertools import chain
 
@@ -94,8 +94,8 @@ def prove_factor(
     SetValuedTerm
         The term with a nonnegative factor.
     list of Check
-        chi >= 0 itself, to be watched at run time, and the sign of each parameter that
-        lent the sign of its value.
+        chi >= 0 itself, to be watched at run time, and the sign of each parameter, or
+        value of parameters, that lent it.
 
     Raises
     ------
@@ -121,17 +121,20 @@ def _checks(prover: Prover, term: SetValuedTerm, factor: Expr, guards: Proof) ->
     watched = Call(">=", (factor, Number(0.0)), span=factor.span)
     reason = f"the factor of `{term.name}`"
     checks = [Check("factor", watched, term.range, reason, span=factor.span)]
-    for guard in sorted(guards):
+    for guard in sorted(guards, key=repr):
         if guard.goal == ">=" and guard._replace(goal=">") in guards:
             continue
-        checks.append(_checked(prover.parameters[guard.parameter], guard, reason, term))
+        checks.append(_checked(prover.parameters, guard, reason, term))
     return checks
 
 
-def _checked(parameter: Parameter, guard: Guard, reason: str, term: SetValuedTerm) -> Check:
-    at, over = None, parameter.range
-    if over is not None:
-        at, over = Index(over.variable), IndexRange(over.variable, *guard.elements)
-    condition = Call(guard.goal, (Name(parameter.name, at), Number(0.0)), span=parameter.span)
+def _checked(
+    parameters: Mapping[str, Parameter], guard: Guard, reason: str, term: SetValuedTerm
+) -> Check:
+    value, over = guard.value, None
+    if isinstance(value, Name) and (family := parameters[value.id].range) is not None:
+        value = replace(value, at=Index(family.variable))
+        over = IndexRange(family.variable, *guard.elements)
+    condition = Call(guard.goal, (value, Number(0.0)), span=value.span)
     why = f"{reason} is nonnegative only then"
     return Check("bound", condition, over, why, span=term.span)

@@ -2,16 +2,17 @@
 
 The proof follows the structure of the expression, through bindings, from declared
 bounds, assumptions and what dio, abs, norm and the like are known for. A parameter
-without a bound lends the sign of its value; the proof says which it used, so that
-just these can be guarded.
+without a bound lends the sign of its value, and so does what is computed of parameters
+alone; the proof says which it used, so that just these can be guarded.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import product
+from math import isfinite
 from typing import NamedTuple
 
 from nsode.evaluate import evaluate
@@ -24,9 +25,9 @@ from nsode.ode import Parameter
 
 
 class Guard(NamedTuple):
-    """The sign that some elements of a parameter lend to a proof."""
+    """The sign that some elements of a parameter lend to a proof, or a value of parameters."""
 
-    parameter: str
+    value: Expr
     goal: Goal
     elements: Elements
 
@@ -108,6 +109,8 @@ class Prover:
         if key not in self._seen:
             assumed = self.facts.tell(expr, goal, self._over)
             proof = _NOTHING if assumed else self._structure(expr, goal)
+            if proof is None:
+                proof = self._lent(expr, goal)
             self._seen[key] = expr, proof  # the expression lives on, so that its id stays its own
         return self._seen[key][1]
 
@@ -146,10 +149,24 @@ class Prover:
             return _NOTHING if goal == ">=" else None
         parameter = self.parameters.get(expr.id)
         if parameter is not None:
-            lent = Guard(expr.id, goal, elements(expr.at, self._over))
+            lent = Guard(replace(expr, at=None), goal, elements(expr.at, self._over))
             held = all(holds(value, goal) for _, value in values_at(parameter, lent.elements))
             return frozenset({lent}) if held else None
         return self._known[expr.id][goal] if expr.id in self._known else None
+
+    def _lent(self, expr: Expr, goal: Goal) -> Proof | None:
+        """Take the sign of a value of single parameters, where no structure tells it."""
+        if not isinstance(expr, Call):
+            return None
+        for node in walk(expr):
+            match node:
+                case Name(id, None) if id in self.parameters:
+                    pass
+                case Name() | Index() | Sum():
+                    return None
+        value = evaluate(expr, lambda name, _: self.parameters[name].values[0], {})
+        held = isfinite(value) and holds(value, goal)
+        return frozenset({Guard(expr, goal, (0, 0))}) if held else None
 
     def _extremes(self, expr: Expr) -> Iterator[float]:
         """Yield a value that is linear in the indices at each corner of their ranges."""

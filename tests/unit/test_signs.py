@@ -34,13 +34,15 @@ PROVED = [
     "sum(i in 1..n: x[i]^2)", "sum(i in 1..n: k[i]*abs(x[i]))", "sum(i in 1..n: i*x[i]^2)",
     "sum(i in 1..n: (i - 1)*abs(x[i]))", "sum(i in 1..n: (2*i - 1 - i)*abs(x[i]))", "acos(w)",
     "-(-mu)", "(-mu)*(-N)", "k[2]", "abs(w)/(k[1] + abs(v))",
+    "N - mu", "log(N)", "N*cos(mu)", "mu + (N - mu)*exp(-abs(v))", "abs(w)/(N - mu - 1)",
 ]  # fmt: skip
 
 UNPROVED = [
-    "w", "below", "mu - N", "N - mu", "w^3", "w*v", "mu*below", "sin(w)", "mu + below", "N/zero",
-    "N/w", "N/abs(w)", "min(mu, w)", "max(below, w)", "log(N)", "tanh(w)", "-dio(w)*w", "mixed[1]",
-    "sum(i in 1..n: (i - 2)*abs(x[i]))", "sum(i in 1..n: mixed[i]^3)", "sum(i in 1..n: x[i])",
-    "if t > 0 then mu else below", "-abs(w)*below*v", "x[1]", "-below*w - 1",
+    "w", "below", "mu - N", "(N - mu)*w", "w^3", "w*v", "mu*below", "sin(w)", "mu + below",
+    "N/zero", "N/w", "N/abs(w)", "min(mu, w)", "max(below, w)", "log(mu)", "cos(N)", "tanh(w)",
+    "-dio(w)*w", "mixed[1]", "sum(i in 1..n: (i - 2)*abs(x[i]))", "sum(i in 1..n: mixed[i]^3)",
+    "sum(i in 1..n: x[i])", "if t > 0 then mu else below", "-abs(w)*below*v", "x[1]",
+    "-below*w - 1",
 ]  # fmt: skip
 
 
@@ -288,3 +290,15 @@ def test_what_lies_beyond_a_number_has_the_sign_of_that_side(said, factor):
 def test_a_limit_on_the_wrong_side_of_zero_proves_nothing():
     with pytest.raises(ModelError, match="NS201"):
         nsode.loads("model m\ninput u = 2\nassume u > -1\nstate v = 1\nder(v) = -u*sgn(v)\n")
+
+
+def test_what_parameters_alone_prove_is_guarded_as_one_value() -> None:
+    lines = ("let drop = N - mu", "der(v) = -(mu + drop*exp(-abs(v)))*cos(mu)*sgn(v)")
+    model = compiled(*HEAD, *lines, "approximate default sgn: K = 1e5, beta = 4e-3")
+    model.with_parameters({"mu": 1.5, "N": 1.5})
+    for values, why in (({"mu": 3}, "`mu` = 3"), ({"N": 0.4}, "`N` = 0.4")):
+        with pytest.raises(ModelError, match=why) as refusal:
+            model.with_parameters(values)
+        assert {d.code for d in refusal.value.diagnostics} == {"NS307"}
+    with pytest.raises(ModelError, match="NS307"):  # cos(1.6) is negative, N - mu is not
+        model.with_parameters({"mu": 1.6})
