@@ -11,23 +11,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nsode.integrators import RungeKutta
+from nsode.integrators.splittings import Verlet
+
+#: A method whose steps through an impact can be computed.
+Stepper = RungeKutta | Verlet
 
 _PLACES = 16  # of the touch in a step
 _MOST_STEPS = 1000  # by then even a contact that creeps out has all but lost its speed
 _FINE = 0.4  # step times frequency below which RK4 errs by less than 5 % of the speed
 
 
-def gate(scheme: RungeKutta) -> float:
+def gate(scheme: Stepper) -> float:
     """Return the step, times the frequency, below which impacts need no look."""
     return float(_FINE ** (4 / scheme.order))
 
 
-def speeds(scheme: RungeKutta, step: float, ratio: float, kappa: float) -> tuple[float, float]:
+def speeds(scheme: Stepper, step: float, ratio: float, kappa: float) -> tuple[float, float]:
     """Return the least and the greatest speed after an impact at speed 1, without gravity.
 
     Parameters
     ----------
-    scheme : RungeKutta
+    scheme : RungeKutta or Verlet
         The method.
     step : float
         Times ``sqrt(K W)``.
@@ -46,6 +50,16 @@ def speeds(scheme: RungeKutta, step: float, ratio: float, kappa: float) -> tuple
 
 
 def _advance(
+    scheme: Stepper, step: float, ratio: float, kappa: float, state: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    match scheme:
+        case RungeKutta():
+            return _by_stages(scheme, step, ratio, kappa, state)
+        case Verlet():
+            return _by_kicks(step, ratio, kappa, state)
+
+
+def _by_stages(
     scheme: RungeKutta, step: float, ratio: float, kappa: float, state: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     slopes: list[NDArray[np.float64]] = []
@@ -54,6 +68,19 @@ def _advance(
         force, rate = _response(ratio, kappa, at)
         slopes.append(np.stack([at[1], force, rate]))
     return at
+
+
+def _by_kicks(
+    step: float, ratio: float, kappa: float, state: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    gap, speed, e = state
+    kicked = speed + step / 2 * _response(ratio, kappa, state)[0]
+    halfway = gap + step / 2 * kicked
+    parted = e + np.expm1(-step / (ratio * kappa)) * e
+    pressed = e + np.expm1(-step / kappa) * (halfway + e)
+    after = np.stack([gap + step * kicked, kicked, np.maximum(parted, pressed)])
+    after[1] += step / 2 * _response(ratio, kappa, after)[0]
+    return after
 
 
 def _response(

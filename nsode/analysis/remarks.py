@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from nsode.analysis.bounces import gate, speeds
+from nsode.analysis.bounces import Stepper, gate, speeds
 from nsode.analysis.elements import degree, inverse_mass
 from nsode.analysis.mass import EffectiveMass
 from nsode.analysis.report import active_text
@@ -13,7 +13,8 @@ from nsode.analysis.restitution import mapped_restitution
 from nsode.analysis.scene import Scene
 from nsode.analysis.steps import StableStep
 from nsode.diagnostics import Diagnostic, Label
-from nsode.integrators import REGISTRY, RungeKutta
+from nsode.integrators import REGISTRY
+from nsode.integrators.splittings import SPLITTINGS
 from nsode.ode import DifferentialInclusion
 
 #: Error of a speed after an impact, as a share of that before, which is worth a note.
@@ -27,8 +28,8 @@ def unresolved(scene: Scene, mass: EffectiveMass) -> list[Diagnostic]:
     It is a note, and a warning where more speed may come back than went in.
     """
     run = scene.inclusion.run
-    scheme = REGISTRY.get(run.method or "rk4")
-    if run.step is None or not isinstance(scheme, RungeKutta):
+    scheme = {**REGISTRY, **SPLITTINGS}.get(run.method or "rk4")
+    if run.step is None or not isinstance(scheme, Stepper):
         return []
     coarse: dict[tuple[str, float], str] = {}
     for element, given in zip(scene.elements, scene.constants, strict=True):

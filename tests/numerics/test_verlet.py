@@ -115,6 +115,7 @@ PRESSED_AT_REST = np.array([-1e-2, 0.0, 1e-2])
 STUCK_AT_REST = np.zeros(2)
 
 
+@pytest.mark.filterwarnings("ignore:a step of .* does not resolve the impacts")
 @pytest.mark.parametrize(
     ("text", "start", "rest", "limit"),
     [
