@@ -147,10 +147,10 @@ def _reserved(name: str) -> str | None:
 def _no_derivative(call: Call, scope: Scope) -> Value:
     raise refuse(
         "NS112",
-        "`der` stands where no derivative is known",
+        "`der` stands outside an equation",
         call.span,
-        "only equations have derivatives of states",
-        help="use what the equation for it says",
+        "derivatives are known in equations only",
+        help="write out what it is: what the equation of a state says, the derivative of a function",
     )
 
 
