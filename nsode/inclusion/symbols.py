@@ -150,7 +150,7 @@ def _no_derivative(call: Call, scope: Scope) -> Value:
         "`der` stands outside an equation",
         call.span,
         "derivatives are known in equations only",
-        help="write out what it is: what the equation of a state says, the derivative of a function",
+        help="write out what it is: what the equation of a state says, the rate of a function",
     )
 
 
