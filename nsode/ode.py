@@ -308,9 +308,12 @@ def layout(items: Iterable[Placed]) -> dict[str, Slot]:
 
 
 def element(name: str, index: int) -> str:
-    """Return the name of one element of a family: ``p.x`` at 3 is ``p[3].x``."""
-    head, dot, tail = name.partition(".")
-    return f"{head}[{index}]{dot}{tail}"
+    """Return the name of one element of a family.
+
+    ``p.x`` at 3 is ``p[3].x``, ``q[2]`` is ``q[3][2]``.
+    """
+    head = name.partition(".")[0].partition("[")[0]
+    return f"{head}[{index}]{name[len(head) :]}"
 
 
 def element_names(items: Iterable[Placed]) -> list[str]:

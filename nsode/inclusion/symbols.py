@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
@@ -94,7 +95,7 @@ class Symbols:
             return symbol
         if name in self.declared:
             raise PoisonedError(name, span)
-        near = suggest(name, [*self.declared, *also])
+        near = _derivative(name, self.declared) or suggest(name, [*self.declared, *also])
         raise ModelError(
             [
                 Diagnostic(
@@ -105,6 +106,16 @@ class Symbols:
                 )
             ]
         )
+
+
+_DERIVATIVE = re.compile(r"d_?(\w+?)(?:_?dt)?|(\w+?)_?(?:dot|der|prime)|dot_?(\w+)")
+
+
+def _derivative(name: str, declared: Iterable[str]) -> str | None:
+    """Return the way out for ``xdot``, and for the ``dx`` of ``dx/dt``."""
+    match = _DERIVATIVE.fullmatch(name)
+    of = next(filter(None, match.groups())) if match else None
+    return f"a derivative is written `der({of})`" if of in set(declared) else None
 
 
 def check_free(name: str, span: Span) -> None:

@@ -126,6 +126,8 @@ def _range(misfit: Misfit) -> str | None:
 
 
 def _settings(misfit: Misfit) -> str | None:
+    if misfit.first.type == "APPROXIMATE" and misfit.type == "LSQB" and misfit.last is not None:
+        return f"a family has one set of constants: `approximate {misfit.last.text}: ...`"
     if misfit.first.type == "APPROXIMATE" and "COLON" in misfit.accepted:
         return "write `approximate N: K = 1e5, beta = 4e-3`"
     return None

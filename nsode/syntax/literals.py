@@ -8,7 +8,7 @@ from sys import float_info
 
 from nsode.diagnostics import Diagnostic, Label
 from nsode.source import Span
-from nsode.syntax.slips import short
+from nsode.syntax.slips import LOOKALIKES, short
 from nsode.syntax.tokens import Token
 
 _MANTISSA = re.compile(r"[0-9.]*")
@@ -50,6 +50,8 @@ def malformed_number(piece: Token) -> Diagnostic:
         return _error(piece, f"{short(text)} has two decimal points", None)
     if rest in ("e", "E"):
         return _error(piece, f"{short(text)} lacks its exponent", f"write {short(text + '3')}")
+    if (digits := text.replace("_", "")).isdigit() and "_" in text:
+        return _error(piece, f"{short(text)} holds `_`", f"write `{digits}`")
     way_out = f"a product is written {short(f'{literal}*{rest}')}; a name begins with a letter"
     return _error(piece, f"{short(text)} is neither a number nor a name", way_out)
 
@@ -64,6 +66,9 @@ _UNIT = re.compile(
 _EXAMPLE = "a unit is written like `{N/m}`, `{kg*m/s^2}` or `{1}`"
 
 
+_IN_UNITS = {".": "*", "%": "0.01", "\N{MICRO SIGN}": "u", "\N{GREEK SMALL LETTER MU}": "u"}
+
+
 def malformed_unit(unit: Token) -> Diagnostic | None:
     """Return the error for a unit in braces; None where its characters are sound."""
     inner = unit.text[1:-1]
@@ -76,4 +81,6 @@ def malformed_unit(unit: Token) -> Diagnostic | None:
     start = unit.start + 1 + sound
     label = Label(Span(start, start + 1))
     message = f"`{inner[sound]}` has no place in a unit"
-    return Diagnostic("NS008", message, (label,), help=_EXAMPLE)
+    meant = LOOKALIKES.get(inner[sound], _IN_UNITS.get(inner[sound]))
+    way_out = f"write `{meant}`" if meant else _EXAMPLE
+    return Diagnostic("NS008", message, (label,), help=way_out)

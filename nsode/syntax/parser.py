@@ -128,6 +128,8 @@ def parse(source: Source, limits: Limits = DEFAULT_LIMITS) -> ast.Model:
     """
     if len(source.text) > limits.size:
         raise too_large(source, limits)
+    if hidden := slips.hidden(source):
+        raise ModelError([hidden], source)
     statements = scan(source, parser().vocabulary, limits)
     errors = headers.judge(source, statements)
     names, trees = [], []
@@ -139,8 +141,27 @@ def parse(source: Source, limits: Limits = DEFAULT_LIMITS) -> ast.Model:
         else:
             names.append(tree) if isinstance(tree, ast.Identifier) else trees.append(tree)
     if errors:
-        raise ModelError(in_order(errors, limits), source)
+        raise ModelError(in_order(_each_once(errors), limits), source)
     return ast.Model(names[0], tuple(trees), source)
+
+
+def _each_once(errors: Sequence[Diagnostic]) -> list[Diagnostic]:
+    """Return errors with a character outside the language told once, however often it stands."""
+    first: dict[str, int] = {}
+    counts: dict[str, int] = {}
+    found: list[Diagnostic] = []
+    for error in errors:
+        if error.code == "NS002":
+            counts[error.message] = counts.get(error.message, 0) + 1
+            if first.setdefault(error.message, len(found)) < len(found):
+                continue
+        found.append(error)
+    for message, count in counts.items():
+        if count > 1:
+            error = found[first[message]]
+            places = "1 more place" if count == 2 else f"{count - 1:,} more places"
+            found[first[message]] = replace(error, notes=(*error.notes, f"and at {places}"))
+    return found
 
 
 def _parse_statement(statement: StatementTokens, limits: Limits) -> ast.Statement | ast.Identifier:

@@ -8,12 +8,12 @@ from collections.abc import Sequence
 
 from nsode.diagnostics import Diagnostic, Label
 from nsode.limits import Limits, either
-from nsode.source import Span
+from nsode.source import Source, Span
 from nsode.syntax.tokens import Token
 
 # characters
 
-_LOOKALIKES = {
+LOOKALIKES = {
     "\N{MINUS SIGN}": "-",
     "\N{EN DASH}": "-",
     "\N{EM DASH}": "-",
@@ -27,7 +27,18 @@ _LOOKALIKES = {
     "\N{NOT EQUAL TO}": "!=",
     "\N{SUPERSCRIPT TWO}": "^2",
     "\N{SUPERSCRIPT THREE}": "^3",
+    "\N{DEGREE SIGN}": "deg",
 }
+_QUOTES = "\u2018\u2019\u201c\u201d"
+#: Cyrillic letters that look like Latin ones.
+_TWINS = dict(
+    zip(
+        "\u0430\u0435\u043e\u0440\u0441\u0445\u0443\u0456\u0458\u0455"
+        "\u0410\u0412\u0415\u041a\u041c\u041d\u041e\u0420\u0421\u0422\u0425",
+        "aeopcxyijsABEKMHOPCTX",
+        strict=True,
+    )
+)
 _GREEK = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (?:FINAL )?([A-Z]+)$")
 _STRAY = {
     "&": "write `and`",
@@ -67,13 +78,33 @@ def foreign(piece: Token, before: Sequence[Token]) -> Diagnostic:
     return Diagnostic("NS002", message, (Label(span),), help=_in_ascii(character, name))
 
 
+_HIDDEN = re.compile(r"[\u202a-\u202e\u2066-\u2069]|\r(?!\n)")
+
+
+def hidden(source: Source) -> Diagnostic | None:
+    """Return the error for characters that show a text otherwise than it is read."""
+    match = _HIDDEN.search(source.text)
+    if match is None:
+        return None
+    span = Span(*match.span())
+    if match[0] == "\r":
+        message = "this line ends with a carriage return alone"
+        way_out = "save the file with line ends of Unix (LF) or of Windows (CR LF)"
+        return Diagnostic("NS002", message, (Label(span),), help=way_out)
+    code, name = f"U+{ord(match[0]):04X}", unicodedata.name(match[0])
+    message = f"{code} {name} makes text look other than it is read, also in a comment"
+    return Diagnostic("NS002", message, (Label(span),), help="delete it")
+
+
 def _in_ascii(character: str, name: str) -> str:
-    if character in _LOOKALIKES:
-        return f"write `{_LOOKALIKES[character]}`"
-    if greek := _GREEK.match(name):
+    if character in LOOKALIKES:
+        return f"write `{LOOKALIKES[character]}`"
+    if greek := _GREEK.match(unicodedata.name(unicodedata.normalize("NFKC", character)[0], name)):
         word = greek[2].lower()
         return f"names are ASCII: write `{word if greek[1] == 'SMALL' else word.capitalize()}`"
-    plain = unicodedata.normalize("NFKC", character)
+    if character in _QUOTES:
+        return "the language has no strings"
+    plain = _TWINS.get(character) or unicodedata.normalize("NFKC", character)
     if plain.isascii():
         return f"it only looks like `{plain}`; write the ASCII character"
     if (base := unicodedata.normalize("NFD", character)[0]).isascii():

@@ -97,6 +97,18 @@ def test_vector_families_have_components_and_lists_of_vectors() -> None:
     assert found == {"p[1].x": 2, "p[2].x": 4 + 1, "p[1].y": 2, "p[2].y": 6 + 2}
 
 
+def test_an_element_of_a_family_has_its_index_before_its_component() -> None:
+    model = compiled(
+        "state q[i in 1..2][4] = [1, 0, 0, 10*i]",
+        "state R[i in 1..2][2][2] = [[1, 2*i], [3, 4]]",
+        "for i in 1..2: der(q[i]) = q[i]",
+        "for i in 1..2: der(R[i]) = R[i]",
+    )
+    start = dict(zip(states(model), model.x0, strict=True))
+    assert (start["q[1][4]"], start["q[2][4]"], start["q[2][1]"]) == (10, 20, 1)
+    assert (start["R[2][1][2]"], start["R[1][1][2]"], start["R[2][2][1]"]) == (4, 2, 3)
+
+
 def test_a_formula_that_reads_the_index_is_no_list() -> None:
     lines = (
         "state p[i in 1..3][3] = [i, 0, 0]",

@@ -1,0 +1,1 @@
+model decaystate x = 1der(x) = -x

@@ -1,0 +1,3 @@
+model decay
+state x = 1  # ‮ not what it looks like
+der(x) = -x
