@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from nsode.derivative import Entry, Pattern, jacobian, pattern
 from nsode.expr import Expr, IndexRange, Name, Number
 from nsode.ode import AugmentedODE, layout
-from nsode.passes.share import share
+from nsode.passes.share import Value, share
 from nsode.passes.split import pieces, settle
 
 
@@ -46,11 +46,12 @@ def sparse_jacobian(ode: AugmentedODE) -> SparseJacobian:
     """Return the Jacobian of an ODE that is not in pieces yet."""
     found = jacobian(ode)
     kept = [piece for n, entry in enumerate(found.entries) for piece in _pieces(entry, n)]
-    bindings, values = share(ode.bindings, found.definitions, [piece.value for piece in kept])
+    values = [Value(p.value, p.ranges[0] if len(p.ranges) == 1 else None) for p in kept]
+    bindings, shared = share(ode.bindings, found.definitions, values)
     return SparseJacobian(
         replace(ode, bindings=tuple(bindings)),
         found.entries,
-        tuple(replace(p, value=value) for p, value in zip(kept, values, strict=True)),
+        tuple(replace(p, value=value) for p, value in zip(kept, shared, strict=True)),
     )
 
 

@@ -3,9 +3,23 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
-from nsode.expr import FUNCTIONS, Call, Expr, If, Index, Name, Number, Sum, children, rebuild, walk
+from nsode.expr import (
+    FUNCTIONS,
+    Call,
+    Expr,
+    If,
+    Index,
+    IndexRange,
+    Name,
+    Number,
+    Sum,
+    children,
+    rebuild,
+    walk,
+)
 from nsode.ode import Binding, Definition, defined, expressions
 from nsode.passes.expressions import map_definition
 from nsode.passes.prune import definition_reads
@@ -14,50 +28,63 @@ from nsode.passes.prune import definition_reads
 _TOTAL = frozenset({"+", "neg", "*", "abs", "min", "max", "norm", "sin", "cos", "atan", "tanh"})
 
 
+class Value(NamedTuple):
+    """An expression, for each index of a range where it has one."""
+
+    expr: Expr
+    range: IndexRange | None = None
+
+
 def share(
-    given: Sequence[Definition], definitions: Sequence[Definition], values: Sequence[Expr]
+    given: Sequence[Definition], definitions: Sequence[Definition], values: Sequence[Value]
 ) -> tuple[list[Definition], list[Expr]]:
     """Return all definitions in an order that computes, and the values that read them.
 
-    What ``definitions`` and ``values`` have in common gets names; ``given`` stays as it is.
-    What reads an open index stays where it is, and nothing is reordered inside an
-    expression, so every value stays what it was to the last bit.
+    What ``definitions`` and ``values`` have in common over one range gets names; ``given``
+    stays as it is. Nothing is reordered inside an expression, so every value stays what it
+    was to the last bit.
     """
-    sharing = _Sharing(_common([*(e for d in definitions for e in expressions(d)), *values]))
+    roots = [Value(expr, item.range) for item in definitions for expr in expressions(item)]
+    sharing = _Sharing(_common([*roots, *values]))
     changed = [sharing.define(item) for item in definitions]
-    results = [sharing.change(value) for value in values]
+    results = [sharing.change(*value) for value in values]
     return _in_order([*given, *changed], sharing.made), results
 
 
 class _Sharing:
     """Names for common expressions."""
 
-    def __init__(self, common: frozenset[Expr]) -> None:
+    def __init__(self, common: frozenset[Value]) -> None:
         self.made: list[Binding] = []
         self._common = common
-        self._names: dict[Expr, Name] = {}
+        self._names: dict[Value, Name] = {}
 
     def define(self, item: Definition) -> Definition:
         """Return a definition that reads the names; a common one lends its own."""
-        match item:
-            case Binding(name, value, None) if value in self._common and value not in self._names:
-                self._names[value] = Name(name)
-                return map_definition(item, lambda expr: rebuild(expr, self.change))
-            case _:
-                return map_definition(item, self.change)
+        if isinstance(item, Binding):
+            whole = _at_home(item.value, item.range)
+            if whole in self._common and whole not in self._names and whole.range == item.range:
+                self._names[whole] = _element(item.name, item.range)
+                return map_definition(item, lambda expr: self._inside(expr, item.range))
+        return map_definition(item, lambda expr: self.change(expr, item.range))
 
-    def change(self, expr: Expr) -> Expr:
+    def change(self, expr: Expr, over: IndexRange | None) -> Expr:
         """Return an expression that reads the names."""
         if not isinstance(expr, Call | If | Sum):
             return expr
-        if expr not in self._common:
-            return rebuild(expr, self.change)
-        if expr not in self._names:
-            value = rebuild(expr, self.change)
+        home = _at_home(expr, over)
+        if home not in self._common:
+            return self._inside(expr, over)
+        if home not in self._names:
+            value = self._inside(expr, over)
             name = f"shared.{len(self.made) + 1}"
-            self.made.append(Binding(name, value, role="part", span=expr.span))
-            self._names[expr] = Name(name)
-        return self._names[expr]
+            self.made.append(Binding(name, value, home.range, role="part", span=expr.span))
+            self._names[home] = _element(name, home.range)
+        return self._names[home]
+
+    def _inside(self, expr: Expr, over: IndexRange | None) -> Expr:
+        inner = None if isinstance(expr, Sum) else over
+        return rebuild(expr, lambda part: self.change(part, inner))
 
 
 def _in_order(definitions: Sequence[Definition], made: Sequence[Binding]) -> list[Definition]:
@@ -70,34 +97,63 @@ def _in_order(definitions: Sequence[Definition], made: Sequence[Binding]) -> lis
     return [item for _, _, item in sorted(ranked, key=lambda entry: entry[:2])]
 
 
-def _common(roots: Sequence[Expr]) -> frozenset[Expr]:
+def _common(roots: Sequence[Value]) -> frozenset[Value]:
     """Return the expressions that are worth a name."""
-    uses: defaultdict[Expr, list[bool]] = defaultdict(list)  # whether each is in a branch
+    uses: defaultdict[Value, list[bool]] = defaultdict(list)  # whether each is in a branch
     stack = [(root, False) for root in roots]
     while stack:
-        expr, guarded = stack.pop()
+        (expr, over), guarded = stack.pop()
         if _may_have_a_name(expr):
-            known = uses[expr]
-            known.append(guarded)
-            if len(known) > 1 and not _is_indexed(expr):
+            home = _at_home(expr, over)
+            uses[home].append(guarded)
+            if len(uses[home]) > 1 and _can_stand(home):
                 continue
-        stack += _inside(expr, guarded)
+        inner = None if isinstance(expr, Sum) else over
+        stack += [(Value(part, inner), guarded or dead) for part, dead in _parts(expr)]
     return frozenset(
-        expr
-        for expr, guards in uses.items()
-        if len(guards) > 1 and _is_worth(expr, len(guards)) and not (all(guards) and _fails(expr))
+        value
+        for value, guards in uses.items()
+        if len(guards) > 1
+        and _can_stand(value)
+        and _saves(value.expr, len(guards))
+        and not (all(guards) and _fails(value.expr))
     )
 
 
-def _inside(expr: Expr, guarded: bool) -> list[tuple[Expr, bool]]:
-    """Return what stands inside an expression, and whether it may be left uncomputed."""
+def _parts(expr: Expr) -> Iterator[tuple[Expr, bool]]:
+    """Yield what stands inside an expression, and whether it may be left uncomputed."""
     match expr:
         case If(condition, then, otherwise):
-            return [(condition, guarded), (then, True), (otherwise, True)]
+            yield from ((condition, False), (then, True), (otherwise, True))
         case Call("and" | "or", (first, *further)):
-            return [(first, guarded), *((part, True) for part in further)]
+            yield first, False
+            yield from ((part, True) for part in further)
         case _:
-            return [(part, guarded) for part in children(expr)]
+            yield from ((part, False) for part in children(expr))
+
+
+def _at_home(expr: Expr, over: IndexRange | None) -> Value:
+    """Return an expression with the range that it depends on."""
+    return Value(expr, over if over is not None and any(_indices(expr)) else None)
+
+
+def _indices(expr: Expr) -> Iterator[str]:
+    """Yield the index variables that an expression reads."""
+    for node in walk(expr):
+        match node:
+            case Name(_, Index(str() as variable)) | Index(str() as variable):
+                yield variable
+            case _:
+                pass
+
+
+def _can_stand(value: Value) -> bool:
+    own = None if value.range is None else value.range.variable
+    return all(variable == own for variable in _indices(value.expr))
+
+
+def _element(name: str, over: IndexRange | None) -> Name:
+    return Name(name, None if over is None else Index(over.variable))
 
 
 def _may_have_a_name(expr: Expr) -> bool:
@@ -108,30 +164,30 @@ def _may_have_a_name(expr: Expr) -> bool:
             return isinstance(expr, If)
 
 
-def _is_worth(expr: Expr, count: int) -> bool:
-    """Whether a name saves something, and may stand outside of every loop."""
-    if _is_indexed(expr) or not any(isinstance(node, Name) for node in walk(expr)):
+def _saves(expr: Expr, count: int) -> bool:
+    """Whether a name saves operations, and more of them than it costs to read."""
+    if not any(isinstance(node, Name) for node in walk(expr)):
         return False
-    return sum(map(_is_operation, walk(expr))) * (count - 1) > 1
+    return sum(map(_price, walk(expr))) * (count - 1) > 1
 
 
-def _is_indexed(expr: Expr) -> bool:
-    return any(isinstance(node, Name | Index) and _runs(node) for node in walk(expr))
-
-
-def _runs(node: Name | Index) -> bool:
-    at = node.at if isinstance(node, Name) else node
-    return at is not None and at.variable is not None
-
-
-def _is_operation(expr: Expr) -> bool:
-    match expr:
-        case Call(function, args):
-            return function != "neg" and not all(isinstance(arg, Number) for arg in args)
+def _price(node: Expr) -> int:
+    match node:
+        case Call("neg", _):
+            return 0
+        case Call(function, args) if not all(isinstance(arg, Number) for arg in args):
+    X
         case _:
-            return False
+            return 0
 
 
 def _fails(expr: Expr) -> bool:
-    """Whether an expression may have no value in a branch that is not taken."""
-    return any(isinstance(node, Call) and node.function not in _TOTAL for node in walk(expr))
+    """Whether an expression may have no value in a branch that is not taken.
+
+    An element may lie outside of its family there.
+    """
+    return any(
+        (isinstance(node, Call) and node.function not in _TOTAL)
+        or (isinstance(node, Name) and node.at is not None)
+        for node in walk(expr)
+    )

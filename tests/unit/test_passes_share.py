@@ -8,7 +8,7 @@ import nsode
 from nsode.backends.jacobian import sparse_jacobian
 from nsode.expr import If, Index, IndexRange, Name, Number, Sum, walk
 from nsode.ode import Binding, expressions
-from nsode.passes.share import share
+from nsode.passes.share import Value, share
 from support.models import PATHS
 from support.odes import call
 
@@ -19,7 +19,7 @@ POSITIVE = call(">", A, 0)
 
 
 def shared(*values, definitions=()):
-    return share((), definitions, values)
+    return share((), definitions, [Value(value) for value in values])
 
 
 def test_what_stands_twice_is_computed_once():
@@ -52,11 +52,30 @@ def test_a_branch_as_a_whole_may_have_a_name():
     assert values == [call("*", k, Name("shared.1")) for k in (2, 3)]
 
 
-def test_what_reads_an_open_index_stays_in_its_loop():
-    x = Name("x", Index("i"))
-    element = call("*", call("+", x, A), call("sin", x))
-    values = [call("sin", element), Sum(IndexRange("i", 1, 3), element)]
+HERE, AHEAD = Name("x", Index("i")), Name("x", Index("i", 1))
+OVER = IndexRange("i", 1, 3)
+
+
+def test_what_reads_an_index_is_shared_in_its_loop():
+    element = call("norm", HERE, AHEAD)
+    given = [Binding(name, call(name, element), OVER) for name in ("sin", "cos")]
+    found, _ = share((), given, [Value(element), Value(element, IndexRange("i", 1, 2))])
+    assert found[0] == Binding("shared.1", element, OVER, role="part")
+    shared_one = Name("shared.1", Index("i"))
+    assert [item.value for item in found[1:]] == [call(n, shared_one) for n in ("sin", "cos")]
+
+
+def test_the_body_of_a_sum_keeps_what_reads_its_index():
+    element = call("*", call("+", HERE, A), call("sin", HERE))
+    values = [Sum(OVER, element), Sum(OVER, call("cos", element))]
     assert shared(*values) == ([], values)
+
+
+def test_an_element_beyond_a_wall_is_not_read_where_the_wall_is():
+    apart = call("*", call("+", AHEAD, HERE), B)
+    inside = call("<", Index("i"), 3)
+    given = [Binding(n, If(inside, call(n, apart), Number(0.0)), OVER) for n in ("sin", "cos")]
+    assert shared(definitions=given) == (given, [])
 
 
 def test_a_definition_lends_its_own_name():
@@ -67,10 +86,9 @@ def test_a_definition_lends_its_own_name():
 
 
 def test_names_stand_as_early_as_they_can():
-    over = IndexRange("i", 1, 3)
-    loops = [Binding(f"f{k}", call("*", PRODUCT, Name("x", Index("i"))), over) for k in range(2)]
+    loops = [Binding(name, call(name, PRODUCT, HERE), OVER) for name in ("max", "min")]
     found, _ = share([Binding("c", Number(2.0))], loops, [])
-    assert [item.name for item in found] == ["c", "shared.1", "f0", "f1"]
+    assert [item.name for item in found] == ["c", "shared.1", "max", "min"]
 
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)

@@ -106,20 +106,22 @@ int bouncing_mass_jac(real t, const real *x, const real *u, const real *p, real 
     const real p_f_beta = p[bouncing_mass_P_f_beta];
     const real b_shared_1 = 1/p_f_alpha;
     const real b_shared_2 = -b_shared_1*p_f_beta;
+    const real b_shared_3 = 1/p_f_beta;
+    const real b_shared_4 = 1/p_M;
     const real b_f_psi = x_p;
     const real b_f_part1 = x_f_e - p_f_beta*(b_f_psi + x_f_e)*b_shared_1;
     const real b_f_part1_d_f_e = 1 + b_shared_2;
     const real b_f_part1_d_p = b_shared_2;
     const real b_f_d_f_e = 0 < b_f_part1 ? p_f_K*b_f_part1_d_f_e : 0;
     const real b_f_d_p = 0 < b_f_part1 ? p_f_K*b_f_part1_d_p : 0;
-    const real b_f_e_rate_part2 = -x_f_e*(1/p_f_beta);
+    const real b_f_e_rate_part2 = -x_f_e*b_shared_3;
     const real b_f_e_rate_part3 = -(b_f_psi + x_f_e)*b_shared_1;
-    const real b_shared_3 = b_f_e_rate_part2 < b_f_e_rate_part3 ? -b_shared_1 : 0;
+    const real b_shared_5 = b_f_e_rate_part2 < b_f_e_rate_part3 ? -b_shared_1 : 0;
     J[2] = 1;
-    J[3] = 1/p_M*b_f_d_f_e;
-    J[0] = 1/p_M*b_f_d_p;
-    J[4] = (b_f_e_rate_part2 >= b_f_e_rate_part3 ? -1/p_f_beta : 0) + b_shared_3;
-    J[1] = b_shared_3;
+    J[3] = b_shared_4*b_f_d_f_e;
+    J[0] = b_shared_4*b_f_d_p;
+    J[4] = (b_f_e_rate_part2 >= b_f_e_rate_part3 ? -b_shared_3 : 0) + b_shared_5;
+    J[1] = b_shared_5;
     return bouncing_mass_OK;
 }
 

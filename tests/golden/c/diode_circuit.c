@@ -116,23 +116,25 @@ int diode_circuit_jac(real t, const real *x, const real *u, const real *p, real 
     const real p_D_beta = p[diode_circuit_P_D_beta];
     const real b_shared_1 = 1/p_D_alpha;
     const real b_shared_2 = -b_shared_1*p_D_beta;
-    const real b_shared_3 = 1/p_L;
+    const real b_shared_3 = 1/p_D_beta;
+    const real b_shared_4 = 1/p_L;
+    const real b_shared_5 = 1/p_C;
     const real b_D_psi = x_i;
     const real b_D_part1 = x_D_e - p_D_beta*(b_D_psi + x_D_e)*b_shared_1;
     const real b_D_part1_d_D_e = 1 + b_shared_2;
     const real b_D_part1_d_i = b_shared_2;
     const real b_D_d_D_e = 0 < b_D_part1 ? p_D_K*b_D_part1_d_D_e : 0;
     const real b_D_d_i = 0 < b_D_part1 ? p_D_K*b_D_part1_d_i : 0;
-    const real b_D_e_rate_part2 = -x_D_e*(1/p_D_beta);
+    const real b_D_e_rate_part2 = -x_D_e*b_shared_3;
     const real b_D_e_rate_part3 = -(b_D_psi + x_D_e)*b_shared_1;
-    const real b_shared_4 = b_D_e_rate_part2 < b_D_e_rate_part3 ? -b_shared_1 : 0;
-    J[3] = -b_shared_3;
-    J[0] = -b_shared_3*p_Rs + b_shared_3*b_D_d_i;
-    J[5] = b_shared_3*b_D_d_D_e;
-    J[1] = 1/p_C;
-    J[4] = -1/p_C*(1/p_R);
-    J[6] = (b_D_e_rate_part2 >= b_D_e_rate_part3 ? -1/p_D_beta : 0) + b_shared_4;
-    J[2] = b_shared_4;
+    const real b_shared_6 = b_D_e_rate_part2 < b_D_e_rate_part3 ? -b_shared_1 : 0;
+    J[3] = -b_shared_4;
+    J[0] = -b_shared_4*p_Rs + b_shared_4*b_D_d_i;
+    J[5] = b_shared_4*b_D_d_D_e;
+    J[1] = b_shared_5;
+    J[4] = -b_shared_5*(1/p_R);
+    J[6] = (b_D_e_rate_part2 >= b_D_e_rate_part3 ? -b_shared_3 : 0) + b_shared_6;
+    J[2] = b_shared_6;
     return diode_circuit_OK;
 }
 

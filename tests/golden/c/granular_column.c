@@ -170,7 +170,8 @@ int granular_column_jac(real t, const real *x, const real *u, const real *p, rea
     real b_N_e_rate_part3_d_N_e_to0[10];
     const real b_shared_1 = 1/p_N_alpha;
     const real b_shared_2 = -b_shared_1*p_N_beta;
-    const real b_shared_3 = 1/p_m;
+    const real b_shared_3 = 1/p_N_beta;
+    const real b_shared_4 = 1/p_m;
     {
         const real b_N_psi = x_z[0] - p_d/2;
         const real b_N_psi_d_z_tom1 = 0;
@@ -180,7 +181,7 @@ int granular_column_jac(real t, const real *x, const real *u, const real *p, rea
         b_N_e_rate_part3[0] = -(b_N_psi + x_N_e[0])*b_shared_1;
         b_N_e_rate_part3_d_z_tom1[0] = -b_shared_1*b_N_psi_d_z_tom1;
         if (jac_places[30 + 0] >= 0) {
-            J[jac_places[30 + 0]] += b_shared_3*b_N_d_z_tom1[0];
+            J[jac_places[30 + 0]] += b_shared_4*b_N_d_z_tom1[0];
         }
     }
     for (int i = 2; i <= 10; ++i) {
@@ -192,21 +193,21 @@ int granular_column_jac(real t, const real *x, const real *u, const real *p, rea
         b_N_e_rate_part3[i - 1] = -(b_N_psi + x_N_e[i - 1])*b_shared_1;
         b_N_e_rate_part3_d_z_tom1[i - 1] = -b_shared_1*b_N_psi_d_z_tom1;
         if (jac_places[30 + i - 1] >= 0) {
-            J[jac_places[30 + i - 1]] += b_shared_3*b_N_d_z_tom1[i - 1];
+            J[jac_places[30 + i - 1]] += b_shared_4*b_N_d_z_tom1[i - 1];
         }
     }
     for (int i = 1; i <= 10; ++i) {
         b_N_part1_d_N_e_to0[i - 1] = 1 + b_shared_2;
         b_N_part1_d_z_to0[i - 1] = b_shared_2;
-        b_N_e_rate_part2[i - 1] = -x_N_e[i - 1]*(1/p_N_beta);
-        b_N_e_rate_part2_d_N_e_to0[i - 1] = -1/p_N_beta;
+        b_N_e_rate_part2[i - 1] = -x_N_e[i - 1]*b_shared_3;
+        b_N_e_rate_part2_d_N_e_to0[i - 1] = -b_shared_3;
         b_N_e_rate_part3_d_z_to0[i - 1] = -b_shared_1;
         b_N_e_rate_part3_d_N_e_to0[i - 1] = -b_shared_1;
         J[jac_places[i - 1]] += 1;
     }
     b_N_d_N_e_to0[0] = 0 < b_N_part1[0] ? p_N_K*b_N_part1_d_N_e_to0[0] : 0;
     b_N_d_z_to0[0] = 0 < b_N_part1[0] ? p_N_K*b_N_part1_d_z_to0[0] : 0;
-    J[jac_places[10 + 0]] += b_shared_3*b_N_d_N_e_to0[0];
+    J[jac_places[10 + 0]] += b_shared_4*b_N_d_N_e_to0[0];
     J[jac_places[60 + 0]] += (b_N_e_rate_part2[0] >= b_N_e_rate_part3[0] ?
         b_N_e_rate_part2_d_N_e_to0[0] : 0) + (b_N_e_rate_part2[0] < b_N_e_rate_part3[0] ?
         b_N_e_rate_part3_d_N_e_to0[0] : 0);
@@ -219,7 +220,7 @@ int granular_column_jac(real t, const real *x, const real *u, const real *p, rea
     for (int i = 2; i <= 10; ++i) {
         b_N_d_N_e_to0[i - 1] = 0 < b_N_part1[i - 1] ? p_N_K*b_N_part1_d_N_e_to0[i - 1] : 0;
         b_N_d_z_to0[i - 1] = 0 < b_N_part1[i - 1] ? p_N_K*b_N_part1_d_z_to0[i - 1] : 0;
-        J[jac_places[10 + i - 1]] += b_shared_3*b_N_d_N_e_to0[i - 1];
+        J[jac_places[10 + i - 1]] += b_shared_4*b_N_d_N_e_to0[i - 1];
         J[jac_places[60 + i - 1]] += (b_N_e_rate_part2[i - 1] >= b_N_e_rate_part3[i - 1] ?
             b_N_e_rate_part2_d_N_e_to0[i - 1] : 0) + (b_N_e_rate_part2[i - 1] < b_N_e_rate_part3[i -
             1] ? b_N_e_rate_part3_d_N_e_to0[i - 1] : 0);
@@ -231,15 +232,15 @@ int granular_column_jac(real t, const real *x, const real *u, const real *p, rea
         }
     }
     for (int i = 1; i <= 9; ++i) {
-        J[jac_places[20 + i - 1]] += b_shared_3*b_N_d_z_to0[i - 1] + (-b_shared_3*b_N_d_z_tom1[i]);
+        J[jac_places[20 + i - 1]] += b_shared_4*b_N_d_z_to0[i - 1] + (-b_shared_4*b_N_d_z_tom1[i]);
         if (jac_places[40 + i - 1] >= 0) {
-            J[jac_places[40 + i - 1]] += -b_shared_3*b_N_d_N_e_to0[i];
+            J[jac_places[40 + i - 1]] += -b_shared_4*b_N_d_N_e_to0[i];
         }
         if (jac_places[50 + i - 1] >= 0) {
-            J[jac_places[50 + i - 1]] += -b_shared_3*b_N_d_z_to0[i];
+            J[jac_places[50 + i - 1]] += -b_shared_4*b_N_d_z_to0[i];
         }
     }
-    J[jac_places[20 + 9]] += b_shared_3*b_N_d_z_to0[9] + 0;
+    J[jac_places[20 + 9]] += b_shared_4*b_N_d_z_to0[9] + 0;
     return granular_column_OK;
 }
 
