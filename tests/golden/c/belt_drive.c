@@ -137,34 +137,33 @@ int belt_drive_jac(real t, const real *x, const real *u, const real *p, real *J)
     const real p_T_K = p[belt_drive_P_T_K];
     const real p_T_beta = p[belt_drive_P_T_beta];
     const real b_shared_1 = 1/p_ws;
-    const real b_shared_3 = 1/p_J1;
-    const real b_shared_4 = 1/p_J2;
-    const real b_shared_5 = 1/p_T_beta;
+    const real b_shared_2 = 1/p_J1;
+    const real b_shared_3 = 1/p_J2;
+    const real b_shared_4 = 1/p_T_beta;
     const real b_level = p_Tc + (p_Ts - p_Tc)*exp(-square(x_w2*(1/p_ws)));
     const real b_T_z = x_T_a + p_T_beta*x_w2;
-    const real b_shared_2 = fabs(b_T_z);
     const real b_T_Z = b_level*(1/p_T_K);
     const real b_level_part1 = x_w2*b_shared_1;
     const real b_level_part2 = -b_level_part1*b_level_part1;
     const real b_level_part2_d_w2 = -2*b_level_part1*b_shared_1;
     const real b_level_d_w2 = (p_Ts - p_Tc)*exp(b_level_part2)*b_level_part2_d_w2;
     const real b_T_Z_d_w2 = 1/p_T_K*b_level_d_w2;
-    const real b_T_s_d_T_a = b_shared_2 < b_T_Z ? (real)1 : 0;
-    const real b_T_s_d_w2 = (b_shared_2 < b_T_Z ? p_T_beta : 0) + (b_T_z >= b_T_Z && b_T_z > 0 ?
+    const real b_T_s_d_T_a = fabs(b_T_z) < b_T_Z ? (real)1 : 0;
+    const real b_T_s_d_w2 = (fabs(b_T_z) < b_T_Z ? p_T_beta : 0) + (b_T_z >= b_T_Z && b_T_z > 0 ?
         b_T_Z_d_w2 : 0) + (-b_T_z >= b_T_Z && b_T_z < 0 ? -b_T_Z_d_w2 : 0);
     J[4] = 1;
     J[7] = 1;
-    J[5] = -b_shared_3*p_kp + (-b_shared_3*p_c);
-    J[0] = -b_shared_3*p_k;
-    J[2] = -b_shared_3*(-p_k);
-    J[8] = -b_shared_3*(-p_c);
-    J[1] = b_shared_4*p_k;
-    J[3] = b_shared_4*(-p_k);
-    J[6] = b_shared_4*p_c;
-    J[9] = b_shared_4*(-p_c) + (-b_shared_4*(p_T_K*b_T_s_d_w2));
-    J[11] = -b_shared_4*(p_T_K*b_T_s_d_T_a);
-    J[12] = b_shared_5*b_T_s_d_T_a - b_shared_5;
-    J[10] = b_shared_5*b_T_s_d_w2;
+    J[5] = -b_shared_2*p_kp + (-b_shared_2*p_c);
+    J[0] = -b_shared_2*p_k;
+    J[2] = -b_shared_2*(-p_k);
+    J[8] = -b_shared_2*(-p_c);
+    J[1] = b_shared_3*p_k;
+    J[3] = b_shared_3*(-p_k);
+    J[6] = b_shared_3*p_c;
+    J[9] = b_shared_3*(-p_c) + (-b_shared_3*(p_T_K*b_T_s_d_w2));
+    J[11] = -b_shared_3*(p_T_K*b_T_s_d_T_a);
+    J[12] = b_shared_4*b_T_s_d_T_a - b_shared_4;
+    J[10] = b_shared_4*b_T_s_d_w2;
     return belt_drive_OK;
 }
 

@@ -116,23 +116,22 @@ int belt_oscillator_jac(real t, const real *x, const real *u, const real *p, rea
     const real p_V = p[belt_oscillator_P_V];
     const real p_Fc_K = p[belt_oscillator_P_Fc_K];
     const real p_Fc_beta = p[belt_oscillator_P_Fc_beta];
-    const real b_shared_2 = 1/p_M;
-    const real b_shared_3 = 1/p_Fc_beta;
+    const real b_shared_1 = 1/p_M;
+    const real b_shared_2 = 1/p_Fc_beta;
     const real b_Fc_z = x_Fc_a + p_Fc_beta*x_w;
-    const real b_shared_1 = fabs(b_Fc_z);
     const real b_Fc_Z = p_F/(p_V + fabs(x_w))*(1/p_Fc_K);
     const real b_Fc_Z_part1 = p_V + fabs(x_w);
     const real b_Fc_Z_part1_d_w = (x_w > 0 ? (real)1 : 0) + (x_w < 0 ? (real)-1 : 0);
     const real b_Fc_Z_d_w = 1/p_Fc_K*(-p_F/b_Fc_Z_part1/b_Fc_Z_part1)*b_Fc_Z_part1_d_w;
-    const real b_Fc_s_d_Fc_a = b_shared_1 < b_Fc_Z ? (real)1 : 0;
-    const real b_Fc_s_d_w = (b_shared_1 < b_Fc_Z ? p_Fc_beta : 0) + (b_Fc_z >= b_Fc_Z && b_Fc_z > 0
-        ? b_Fc_Z_d_w : 0) + (-b_Fc_z >= b_Fc_Z && b_Fc_z < 0 ? -b_Fc_Z_d_w : 0);
+    const real b_Fc_s_d_Fc_a = fabs(b_Fc_z) < b_Fc_Z ? (real)1 : 0;
+    const real b_Fc_s_d_w = (fabs(b_Fc_z) < b_Fc_Z ? p_Fc_beta : 0) + (b_Fc_z >= b_Fc_Z && b_Fc_z >
+        0 ? b_Fc_Z_d_w : 0) + (-b_Fc_z >= b_Fc_Z && b_Fc_z < 0 ? -b_Fc_Z_d_w : 0);
     J[1] = -1;
-    J[0] = b_shared_2*p_k2*(3*(x_p*x_p)) + (-b_shared_2*p_k1);
-    J[4] = -b_shared_2*(p_Fc_K*b_Fc_s_d_Fc_a);
-    J[2] = -b_shared_2*(p_Fc_K*b_Fc_s_d_w);
-    J[5] = b_shared_3*b_Fc_s_d_Fc_a - b_shared_3;
-    J[3] = b_shared_3*b_Fc_s_d_w;
+    J[0] = b_shared_1*p_k2*(3*(x_p*x_p)) + (-b_shared_1*p_k1);
+    J[4] = -b_shared_1*(p_Fc_K*b_Fc_s_d_Fc_a);
+    J[2] = -b_shared_1*(p_Fc_K*b_Fc_s_d_w);
+    J[5] = b_shared_2*b_Fc_s_d_Fc_a - b_shared_2;
+    J[3] = b_shared_2*b_Fc_s_d_w;
     return belt_oscillator_OK;
 }
 

@@ -189,65 +189,64 @@ int burridge_knopoff_jac(real t, const real *x, const real *u, const real *p, re
     real b_right_d_x_to0[32];
     real b_left_d_x_to0[32];
     const real b_shared_1 = 1/p_vc;
-    const real b_shared_3 = 1/p_m;
-    const real b_shared_4 = b_shared_3*p_kc;
-    const real b_shared_5 = 1/p_F_beta;
+    const real b_shared_2 = 1/p_m;
+    const real b_shared_3 = b_shared_2*p_kc;
+    const real b_shared_4 = 1/p_F_beta;
     for (int i = 1; i <= 32; ++i) {
         const real b_F_z = x_F_a[i - 1] + p_F_beta*x_v[i - 1];
-        const real b_shared_2 = fabs(b_F_z);
         const real b_F_Z = p_F0[i - 1]/(1 + fabs(x_v[i - 1])*(1/p_vc))*(1/p_F_K);
         const real b_F_Z_part1 = 1 + fabs(x_v[i - 1])*b_shared_1;
         const real b_F_Z_part1_d_v_to0 = (x_v[i - 1] > 0 ? b_shared_1 : 0) + (x_v[i - 1] < 0 ?
             -b_shared_1 : 0);
         const real b_F_Z_d_v_to0 = 1/p_F_K*(-p_F0[i -
             1]/b_F_Z_part1/b_F_Z_part1)*b_F_Z_part1_d_v_to0;
-        const real b_F_s_d_F_a_to0 = b_shared_2 < b_F_Z ? (real)1 : 0;
-        const real b_F_s_d_v_to0 = (b_shared_2 < b_F_Z ? p_F_beta : 0) + (b_F_z >= b_F_Z && b_F_z >
+        const real b_F_s_d_F_a_to0 = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
+        const real b_F_s_d_v_to0 = (fabs(b_F_z) < b_F_Z ? p_F_beta : 0) + (b_F_z >= b_F_Z && b_F_z >
             0 ? b_F_Z_d_v_to0 : 0) + (-b_F_z >= b_F_Z && b_F_z < 0 ? -b_F_Z_d_v_to0 : 0);
         const real b_F_d_F_a_to0 = p_F_K*b_F_s_d_F_a_to0;
         const real b_F_d_v_to0 = p_F_K*b_F_s_d_v_to0;
         J[jac_places[i - 1]] += 1;
-        J[jac_places[128 + i - 1]] += -b_shared_3*b_F_d_F_a_to0;
-        J[jac_places[160 + i - 1]] += -b_shared_3*b_F_d_v_to0;
-        J[jac_places[192 + i - 1]] += b_shared_5*b_F_s_d_F_a_to0 - b_shared_5;
-        J[jac_places[224 + i - 1]] += b_shared_5*b_F_s_d_v_to0;
+        J[jac_places[128 + i - 1]] += -b_shared_2*b_F_d_F_a_to0;
+        J[jac_places[160 + i - 1]] += -b_shared_2*b_F_d_v_to0;
+        J[jac_places[192 + i - 1]] += b_shared_4*b_F_s_d_F_a_to0 - b_shared_4;
+        J[jac_places[224 + i - 1]] += b_shared_4*b_F_s_d_v_to0;
     }
     for (int i = 1; i <= 31; ++i) {
         const real b_right_d_x_to1 = 1;
         b_right_d_x_to0[i - 1] = -1;
         if (jac_places[32 + i - 1] >= 0) {
-            J[jac_places[32 + i - 1]] += b_shared_4*b_right_d_x_to1;
+            J[jac_places[32 + i - 1]] += b_shared_3*b_right_d_x_to1;
         }
     }
     {
         const real b_right_d_x_to1 = 0;
         b_right_d_x_to0[31] = 0;
         if (jac_places[32 + 31] >= 0) {
-            J[jac_places[32 + 31]] += b_shared_4*b_right_d_x_to1;
+            J[jac_places[32 + 31]] += b_shared_3*b_right_d_x_to1;
         }
     }
     {
         b_left_d_x_to0[0] = 0;
         const real b_left_d_x_tom1 = 0;
-        J[jac_places[64 + 0]] += b_shared_4*b_right_d_x_to0[0] + (-b_shared_4*b_left_d_x_to0[0]) -
-            b_shared_3*p_kp;
+        J[jac_places[64 + 0]] += b_shared_3*b_right_d_x_to0[0] + (-b_shared_3*b_left_d_x_to0[0]) -
+            b_shared_2*p_kp;
         if (jac_places[96 + 0] >= 0) {
-            J[jac_places[96 + 0]] += -b_shared_4*b_left_d_x_tom1;
+            J[jac_places[96 + 0]] += -b_shared_3*b_left_d_x_tom1;
         }
     }
     for (int i = 2; i <= 32; ++i) {
         b_left_d_x_to0[i - 1] = 1;
         const real b_left_d_x_tom1 = -1;
         if (jac_places[96 + i - 1] >= 0) {
-            J[jac_places[96 + i - 1]] += -b_shared_4*b_left_d_x_tom1;
+            J[jac_places[96 + i - 1]] += -b_shared_3*b_left_d_x_tom1;
         }
     }
     for (int i = 2; i <= 31; ++i) {
-        J[jac_places[64 + i - 1]] += b_shared_4*b_right_d_x_to0[i - 1] +
-            (-b_shared_4*b_left_d_x_to0[i - 1]) - b_shared_3*p_kp;
+        J[jac_places[64 + i - 1]] += b_shared_3*b_right_d_x_to0[i - 1] +
+            (-b_shared_3*b_left_d_x_to0[i - 1]) - b_shared_2*p_kp;
     }
-    J[jac_places[64 + 31]] += b_shared_4*b_right_d_x_to0[31] + (-b_shared_4*b_left_d_x_to0[31]) -
-        b_shared_3*p_kp;
+    J[jac_places[64 + 31]] += b_shared_3*b_right_d_x_to0[31] + (-b_shared_3*b_left_d_x_to0[31]) -
+        b_shared_2*p_kp;
     return burridge_knopoff_OK;
 }
 

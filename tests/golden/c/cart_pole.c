@@ -178,21 +178,19 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     const real p_F_beta = p[cart_pole_P_F_beta];
     const real p_T_K = p[cart_pole_P_T_K];
     const real p_T_beta = p[cart_pole_P_T_beta];
-    const real b_shared_3 = p_mp*p_l;
-    const real b_shared_4 = p_mc + p_mp;
-    const real b_shared_5 = cos(x_phi);
-    const real b_shared_6 = b_shared_3*b_shared_5;
-    const real b_shared_7 = p_mp*(p_l*p_l);
-    const real b_shared_8 = sin(x_phi);
-    const real b_shared_9 = 1/p_F_beta;
-    const real b_shared_10 = 1/p_T_beta;
+    const real b_shared_1 = p_mp*p_l;
+    const real b_shared_2 = p_mc + p_mp;
+    const real b_shared_3 = cos(x_phi);
+    const real b_shared_4 = b_shared_1*b_shared_3;
+    const real b_shared_5 = p_mp*(p_l*p_l);
+    const real b_shared_6 = sin(x_phi);
+    const real b_shared_7 = 1/p_F_beta;
+    const real b_shared_8 = 1/p_T_beta;
     const real b_F_z = x_F_a + p_F_beta*x_v;
-    const real b_shared_1 = fabs(b_F_z);
     const real b_F_Z = p_Fc/p_F_K;
     const real b_F_s = sat(b_F_Z, b_F_z);
     const real b_F = p_F_K*b_F_s;
     const real b_T_z = x_T_a + p_T_beta*x_w;
-    const real b_shared_2 = fabs(b_T_z);
     const real b_T_Z = p_T0/p_T_K;
     const real b_T_s = sat(b_T_Z, b_T_z);
     const real b_T = p_T_K*b_T_s;
@@ -203,42 +201,42 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     }
     const real b_v_rate = vector2[0];
     const real b_w_rate = vector2[1];
-    const real b_F_s_d_F_a = b_shared_1 < b_F_Z ? (real)1 : 0;
-    const real b_F_s_d_v = b_shared_1 < b_F_Z ? p_F_beta : 0;
-    const real b_T_s_d_T_a = b_shared_2 < b_T_Z ? (real)1 : 0;
-    const real b_T_s_d_w = b_shared_2 < b_T_Z ? p_T_beta : 0;
-    const real b_v_rate_part1 = b_shared_3*(x_w*x_w);
-    const real b_v_rate_part1_d_w = b_shared_3*(2*x_w);
-    real matrix3[] = {b_shared_4, b_shared_6, b_shared_6, b_shared_7};
-    real vector4[] = {b_shared_8*b_v_rate_part1_d_w, -p_T_K*b_T_s_d_w};
+    const real b_F_s_d_F_a = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
+    const real b_F_s_d_v = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
+    const real b_T_s_d_T_a = fabs(b_T_z) < b_T_Z ? (real)1 : 0;
+    const real b_T_s_d_w = fabs(b_T_z) < b_T_Z ? p_T_beta : 0;
+    const real b_v_rate_part1 = b_shared_1*(x_w*x_w);
+    const real b_v_rate_part1_d_w = b_shared_1*(2*x_w);
+    real matrix3[] = {b_shared_2, b_shared_4, b_shared_4, b_shared_5};
+    real vector4[] = {b_shared_6*b_v_rate_part1_d_w, -p_T_K*b_T_s_d_w};
     if (!solve2(matrix3, vector4)) {
         return cart_pole_SINGULAR;
     }
     const real b_v_rate_d_w = vector4[0];
     const real b_w_rate_d_w = vector4[1];
-    real matrix5[] = {b_shared_4, b_shared_6, b_shared_6, b_shared_7};
-    real vector6[] = {b_v_rate_part1*b_shared_5 + (-b_w_rate*b_shared_3*(-b_shared_8)),
-        -p_mp*p_g*p_l*b_shared_5 + (-b_v_rate*b_shared_3*(-b_shared_8))};
+    real matrix5[] = {b_shared_2, b_shared_4, b_shared_4, b_shared_5};
+    real vector6[] = {b_v_rate_part1*b_shared_3 + (-b_w_rate*b_shared_1*(-b_shared_6)),
+        -p_mp*p_g*p_l*b_shared_3 + (-b_v_rate*b_shared_1*(-b_shared_6))};
     if (!solve2(matrix5, vector6)) {
         return cart_pole_SINGULAR;
     }
     const real b_v_rate_d_phi = vector6[0];
     const real b_w_rate_d_phi = vector6[1];
-    real matrix7[] = {b_shared_4, b_shared_6, b_shared_6, b_shared_7};
+    real matrix7[] = {b_shared_2, b_shared_4, b_shared_4, b_shared_5};
     real vector8[] = {-p_F_K*b_F_s_d_F_a, 0};
     if (!solve2(matrix7, vector8)) {
         return cart_pole_SINGULAR;
     }
     const real b_v_rate_d_F_a = vector8[0];
     const real b_w_rate_d_F_a = vector8[1];
-    real matrix9[] = {b_shared_4, b_shared_6, b_shared_6, b_shared_7};
+    real matrix9[] = {b_shared_2, b_shared_4, b_shared_4, b_shared_5};
     real vector10[] = {-p_F_K*b_F_s_d_v, 0};
     if (!solve2(matrix9, vector10)) {
         return cart_pole_SINGULAR;
     }
     const real b_v_rate_d_v = vector10[0];
     const real b_w_rate_d_v = vector10[1];
-    real matrix11[] = {b_shared_4, b_shared_6, b_shared_6, b_shared_7};
+    real matrix11[] = {b_shared_2, b_shared_4, b_shared_4, b_shared_5};
     real vector12[] = {0, -p_T_K*b_T_s_d_T_a};
     if (!solve2(matrix11, vector12)) {
         return cart_pole_SINGULAR;
@@ -257,10 +255,10 @@ int cart_pole_jac(real t, const real *x, const real *u, const real *p, real *J)
     J[11] = b_w_rate_d_F_a;
     J[4] = b_w_rate_d_v;
     J[14] = b_w_rate_d_T_a;
-    J[12] = b_shared_9*b_F_s_d_F_a - b_shared_9;
-    J[5] = b_shared_9*b_F_s_d_v;
-    J[15] = b_shared_10*b_T_s_d_T_a - b_shared_10;
-    J[9] = b_shared_10*b_T_s_d_w;
+    J[12] = b_shared_7*b_F_s_d_F_a - b_shared_7;
+    J[5] = b_shared_7*b_F_s_d_v;
+    J[15] = b_shared_8*b_T_s_d_T_a - b_shared_8;
+    J[9] = b_shared_8*b_T_s_d_w;
     return cart_pole_OK;
 }
 

@@ -112,18 +112,17 @@ int dry_friction_jac(real t, const real *x, const real *u, const real *p, real *
     const real p_F0 = p[dry_friction_P_F0];
     const real p_F_K = p[dry_friction_P_F_K];
     const real p_F_beta = p[dry_friction_P_F_beta];
-    const real b_shared_2 = 1/p_M;
-    const real b_shared_3 = 1/p_F_beta;
+    const real b_shared_1 = 1/p_M;
+    const real b_shared_2 = 1/p_F_beta;
     const real b_F_z = x_F_a + p_F_beta*x_v;
-    const real b_shared_1 = fabs(b_F_z);
     const real b_F_Z = p_F0/p_F_K;
-    const real b_F_s_d_F_a = b_shared_1 < b_F_Z ? (real)1 : 0;
-    const real b_F_s_d_v = b_shared_1 < b_F_Z ? p_F_beta : 0;
+    const real b_F_s_d_F_a = fabs(b_F_z) < b_F_Z ? (real)1 : 0;
+    const real b_F_s_d_v = fabs(b_F_z) < b_F_Z ? p_F_beta : 0;
     J[0] = 1;
-    J[3] = -b_shared_2*(p_F_K*b_F_s_d_F_a);
-    J[1] = -b_shared_2*(p_F_K*b_F_s_d_v);
-    J[4] = b_shared_3*b_F_s_d_F_a - b_shared_3;
-    J[2] = b_shared_3*b_F_s_d_v;
+    J[3] = -b_shared_1*(p_F_K*b_F_s_d_F_a);
+    J[1] = -b_shared_1*(p_F_K*b_F_s_d_v);
+    J[4] = b_shared_2*b_F_s_d_F_a - b_shared_2;
+    J[2] = b_shared_2*b_F_s_d_v;
     return dry_friction_OK;
 }
 
