@@ -25,9 +25,9 @@ state p[2] = [0, 0.1]  {m}      # p.x along the table, p.y above it
 state v[2] = [2, 0]    {m/s}
 
 # dio(gap): no force while the gap is open, any force that keeps it from closing further.
-force N = dio(p.y)
+force N = dio(p.y)  {N}
 # chi*sgn(velocity): chi against the motion; at rest whatever balances, up to chi.
-force F = mu*N*sgn(v.x)
+force F = mu*N*sgn(v.x)  {N}
 
 der(p) = v
 M*der(v) = [-F, N - M*g]
