@@ -26,6 +26,7 @@ SOLVERS = {
 
 _USUAL_TOLERANCE = 1e-8
 _SMALL = 1e-3  # below this a state is judged by its absolute error, in SI
+_RESOLVED = 8  # the least step, in distances from one double to the next where a run is
 _SECONDS_A_STEP = 1e-7  # of a small scene, for estimates
 _DEFAULT_METHOD = next(iter(REGISTRY))
 
@@ -120,7 +121,11 @@ def settle(
     steps = round(duration / step)
     every, remarks = _every(wish, run, step)
     settings = Settings(wish.start, step, steps, every, method, tolerance)
-    problems = [*_too_short(duration, step, steps), *_too_large(settings, columns, limits)]
+    problems = [
+        *_too_short(duration, step, steps),
+        *_too_late(settings),
+        *_too_large(settings, columns, limits),
+    ]
     if problems:
         raise ModelError(problems)
     if abs(duration / step - steps) > 1e-9 * steps and duration != run.duration:
@@ -199,6 +204,16 @@ def _too_short(duration: float, step: float, steps: int) -> list[Diagnostic]:
         return []
     message = f"a run of {duration:g} s is shorter than half a step of {step:g} s"
     return [Diagnostic("NS501", message)]
+
+
+def _too_late(settings: Settings) -> list[Diagnostic]:
+    far = max(abs(settings.start), abs(settings.start + settings.duration))
+    if settings.step >= _RESOLVED * math.ulp(far):
+        return []
+    message = f"steps of {settings.step:g} s cannot be told apart at {far:g} s"
+    why = f"times there are {math.ulp(far):.2g} s apart in double precision"
+    help = "start nearer to zero, or take longer steps"
+    return [Diagnostic("NS501", message, notes=(why,), help=help)]
 
 
 def _too_large(settings: Settings, columns: int, limits: Limits) -> list[Diagnostic]:

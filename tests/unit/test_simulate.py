@@ -81,6 +81,17 @@ def test_a_run_may_start_at_another_time():
     assert found["p"][-1] == pytest.approx((3**2 - 2**2) / 2, rel=1e-12)
 
 
+def test_a_run_may_start_at_the_time_of_day_but_not_where_steps_are_lost() -> None:
+    driven = nsode.loads("model m\nstate p = 0\nder(p) = cos(t)\nsimulate 1 step 1e-3\n")
+    now = 1.7e9  # s since 1970, where doubles are 2.4e-7 apart
+    exact = np.sin(now + 1) - np.sin(now)
+    assert driven.simulate(start=now)["p"][-1] == pytest.approx(exact, abs=1e-6)
+    for start in (1e13, -1e13, 1e300):
+        with pytest.raises(ModelError, match="cannot be told apart") as refusal:
+            driven.simulate(start=start)
+        assert [d.code for d in refusal.value.diagnostics] == ["NS501"]
+
+
 @pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf])
 @pytest.mark.parametrize("which", ["duration", "step"])
 def test_a_duration_or_a_step_that_is_no_positive_number_is_refused(which, value):
