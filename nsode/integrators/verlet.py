@@ -14,7 +14,8 @@ close to its level, by an amount of the order of h^2.
 
 The order is 2. Where forces depend on velocities, as those of friction do while it sticks or
 while its direction turns, it is 1: each kick takes the velocity that it finds. A step calls
-the rates twice, as Heun's does.
+the rates twice, as Heun's does; a loop that carries them calls them once, where they are the
+same at the end of a step and at the start of the next.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
-from nsode.expr import Call, Expr, Index, Name, Number, add, divide, multiply, negate
+from nsode.expr import TIME, Call, Expr, Index, Name, Number, add, divide, multiply, negate
 from nsode.ode import (
     AugmentedODE,
     AuxiliaryState,
@@ -99,12 +100,9 @@ def velocities(system: System) -> set[str]:
     """
     auxiliary = {item.name for item in system.auxiliary} if isinstance(system, AugmentedODE) else ()
     forces = {name for item in system.bindings for name in _multipliers(item)}.union(auxiliary)
-    behind = _behind(system.bindings)
-    rests: dict[str, set[str]] = {}
+    rests = _rests(system)
     moves: dict[str, set[str]] = {}
     for rate in system.rates:
-        read = (behind.get(name, {name}) for name in reads(rate.value))
-        rests.setdefault(rate.state, set()).update(*read)
         if isinstance(rate.value, Name):
             moves.setdefault(rate.value.id, set()).add(rate.state)
     kicked = {state for state, read in rests.items() if read & forces}.difference(auxiliary)
@@ -113,6 +111,26 @@ def velocities(system: System) -> set[str]:
         if rests.get(state.name, set()) & positions:
             kicked.add(state.name)
     return kicked
+
+
+def carries(ode: AugmentedODE) -> bool:
+    """Whether the kicks at the end of a step are those at the start of the next.
+
+    They are where no force reads a velocity, the time or an input.
+    """
+    kicked, rests = velocities(ode), _rests(ode)
+    changing = {TIME, *kicked, *(entry.name for entry in ode.inputs)}
+    return all(rests[state].isdisjoint(changing) for state in kicked)
+
+
+def _rests(system: System) -> dict[str, set[str]]:
+    """Return the states, multipliers, inputs and parameters on which each rate rests."""
+    behind = _behind(system.bindings)
+    rests: dict[str, set[str]] = {}
+    for rate in system.rates:
+        read = (behind.get(name, {name}) for name in reads(rate.value))
+        rests.setdefault(rate.state, set()).update(*read)
+    return rests
 
 
 def _multipliers(item: Definition) -> tuple[str, ...]:

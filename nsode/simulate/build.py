@@ -17,6 +17,7 @@ from nsode.diagnostics import Diagnostic, ModelError
 from nsode.integrators import REGISTRY
 from nsode.integrators.pairs import PAIRS, EmbeddedPair
 from nsode.integrators.splittings import SPLITTINGS
+from nsode.integrators.verlet import carries
 from nsode.ode import AugmentedODE
 from nsode.simulate import cache
 from nsode.simulate.compilers import Compiler
@@ -73,6 +74,8 @@ def sources(ode: AugmentedODE, method: str) -> dict[str, str]:
         for name in (*REGISTRY, *(found.name for found in splittings))
     )
     file, definitions = "run.c", f"#define STEP {PREFIX}_step_{method}\n"
+    if splittings and carries(ode) and not ode.checks:
+        definitions += "#define CARRIED\n"
     if method in PAIRS:
         file, definitions = "pair.c", _tableau(PAIRS[method], bool(ode.checks))
     loop = files("nsode.simulate").joinpath(file).read_text(encoding="utf-8")

@@ -15,7 +15,7 @@ from nsode.backends import c
 from nsode.backends.casadi import functions
 from nsode.diagnostics import ModelError
 from nsode.integrators.splittings import SPLITTINGS
-from nsode.integrators.verlet import VERLET, velocities
+from nsode.integrators.verlet import VERLET, carries, velocities
 from nsode.ode import element_names
 from nsode.simulate import Mode, RunWarning, scene
 from support.models import MODELS
@@ -345,6 +345,23 @@ def test_code_that_is_handed_on_is_the_same_with_and_without_splittings():
     for name, text in plain.items():
         kept = set(split[name].splitlines())
         assert kept.issuperset(text.splitlines())
+
+
+@pytest.mark.parametrize("every", [1, 7])
+def test_forces_that_are_carried_change_no_number(every):
+    plain = nsode.loads(BALL)
+    reading = nsode.loads(BALL.replace("parameter fe = -9.8", "input fe = -9.8"))
+    assert carries(plain.ode)
+    assert not carries(reading.ode)  # an input may change from step to step
+    runs = [model.simulate(3, 1e-3, every=every, method="verlet") for model in (plain, reading)]
+    assert np.array_equal(runs[0].x, runs[1].x)
+    assert np.array_equal(runs[0].y, runs[1].y)
+
+
+def test_a_force_that_reads_a_velocity_or_the_time_is_not_carried():
+    assert carries(nsode.load(MODELS / "granular_column.di").ode)
+    assert not carries(nsode.loads(SPRING).ode)
+    assert not carries(nsode.loads(BELT).ode)
 
 
 def test_without_a_compiler_it_is_refused(monkeypatch):

@@ -10,11 +10,12 @@ from nsode.backends.c import work
 from nsode.backends.c.function import body
 from nsode.backends.c.program import Program, definitions
 from nsode.backends.c.step import step
-from nsode.integrators.verlet import STEP, Verlet, split
+from nsode.integrators.verlet import STEP, Parts, Verlet, split
 from nsode.ode import AugmentedODE, size
 from nsode.passes.reciprocal import multiply_by_reciprocals
 from nsode.passes.split import split as in_pieces
 
+_ONWARD = "static inline int onward(real t, real h, real *x, const real *u, const real *p, real *k)"
 _AT = "real t, real {h}, const real *x, const real *u, const real *p, real *dx"
 
 
@@ -22,10 +23,11 @@ def stages(program: Program) -> dict[str, list[str]]:
     """Return the bodies of the functions that a step calls besides the rates, by their heads."""
     parts = split(program.whole)
     head = _AT.format(h=program.locals[STEP.id])
-    return {
+    bodies = {
         f"static inline int {name}({head})": _filled(program, ode)
         for name, ode in (("drift", parts.drift), ("press", parts.press), ("slide", parts.slide))
     }
+    return {**bodies, _ONWARD: _onward(program, parts)}
 
 
 def _filled(program: Program, ode: AugmentedODE) -> list[str]:
@@ -36,7 +38,16 @@ def _filled(program: Program, ode: AugmentedODE) -> list[str]:
 
 @step.register
 def _(scheme: Verlet, program: Program) -> list[str]:
-    parts = split(program.whole)
+    lines = [
+        f"real k[{max(1, program.x.size)}];",
+        "const int status = rates(t, x, u, p, k);",
+        "return status ? status : onward(t, h, x, u, p, k);",
+    ]
+    return [f"    {line}" for line in lines]
+
+
+def _onward(program: Program, parts: Parts) -> list[str]:
+    """Return the step from the rates at its start on, which leaves those at its end behind."""
     nx = f"{program.prefix}_NX"
     kicked = list(_stretches(program, parts.kicked))
     moved, pressed, slid = (
@@ -44,9 +55,8 @@ def _(scheme: Verlet, program: Program) -> list[str]:
         for ode in (parts.drift, parts.press, parts.slide)
     )
     lines = [
-        f"real k[{max(1, program.x.size)}], next[{max(1, program.x.size)}];",
+        f"real next[{max(1, program.x.size)}];",
         "int status;",
-        *_call("rates", "t", "x"),
         *_loop([("0", nx)], "next[i] = x[i];"),
         *_loop(kicked, "next[i] += h/2*k[i];"),
     ]
