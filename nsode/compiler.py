@@ -14,8 +14,11 @@ from nsode.backends import emit as emit_target
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.files import write_generated
 from nsode.inclusion.build import build
+from nsode.integrators import REGISTRY
+from nsode.integrators.pairs import PAIRS
+from nsode.integrators.splittings import SPLITTINGS
 from nsode.limits import DEFAULT_LIMITS, Limits
-from nsode.ode import AugmentedODE, DifferentialInclusion, element_names
+from nsode.ode import AugmentedODE, DifferentialInclusion, Run, element_names
 from nsode.regularizations import Kind
 from nsode.rewrite import rewrite
 from nsode.rewrite.start import at_start, initial_state, pressed_at_start
@@ -367,10 +370,19 @@ def compile_source(source: Source, limits: Limits = DEFAULT_LIMITS) -> Model:
     with _without_collector():
         try:
             inclusion, diagnostics = build(parse(source, limits), limits)
+            _check_method(inclusion.run)
             ode = rewrite(inclusion)
             return Model(inclusion, ode, (*diagnostics, *_remarks(inclusion, ode)), limits)
         except ModelError as error:
             raise ModelError(error.diagnostics, source) from None
+
+
+def _check_method(run: Run) -> None:
+    """Refuse a method that there is not; its own are known without waiting for what runs them."""
+    if run.method not in (None, *REGISTRY, *SPLITTINGS, *PAIRS):
+        from nsode.simulate.settings import check_method
+
+        check_method(run)
 
 
 def _remarks(inclusion: DifferentialInclusion, ode: AugmentedODE) -> tuple[Diagnostic, ...]:

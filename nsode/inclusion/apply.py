@@ -71,7 +71,8 @@ def _scalar_function(expr: Call, args: tuple[Value, ...]) -> Expr:
 def _argument(function: str, arg: Value, written: Expr) -> Expr:
     if not isinstance(arg, Expr):
         what = f"this is {describe(shape(arg))}"
-        raise refuse("NS105", f"`{function}` takes scalars", written.span, what)
+        way_out = None if function.isalpha() else "compare components, or `norm(...)`"
+        raise refuse("NS105", f"`{function}` takes scalars", written.span, what, help=way_out)
     if function not in {"and", "or", "not"}:
         return number(arg, f"an argument of `{function}`")
     if not is_condition(arg):

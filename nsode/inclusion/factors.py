@@ -17,6 +17,7 @@ from nsode.ode import Binding, Check, DifferentialInclusion, Parameter, SetValue
 from nsode.source import Source
 
 _RELATIONS: dict[str, Goal] = {">=": ">=", ">": ">", "<=": "<=", "<": "<"}
+_NEGATED = {">=": "<", ">": "<=", "<=": ">", "<": ">="}
 
 
 def prover_of(inclusion: DifferentialInclusion) -> Prover:
@@ -39,6 +40,11 @@ def _take(facts: Facts, condition: Expr, over: Axes) -> None:
         case Call("and", (left, right)):
             _take(facts, left, over)
             _take(facts, right, over)
+        case Call("not", (Call(relation, sides),)) if relation in _NEGATED:
+            _take(facts, Call(_NEGATED[relation], sides), over)
+        case Call("==", sides):
+            _take(facts, Call(">=", sides), over)
+            _take(facts, Call("<=", sides), over)
         case Call(relation, (left, right)) if relation in _RELATIONS:
             goal = _RELATIONS[relation]
             facts.add(_difference(left, right), goal, over)

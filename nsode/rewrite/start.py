@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.evaluate import evaluate
 from nsode.expr import TIME, Call, Expr, IndexRange, Name, Sum, children, names
-from nsode.ode import AugmentedODE, Binding, Rate, SetValuedTerm
+from nsode.ode import AugmentedODE, Binding, Rate, SetValuedTerm, State
 
 #: Families that read each other deeper than this, and sums longer, are not looked into.
 _DEPTH, _LENGTH = 50, 1000
@@ -34,7 +34,7 @@ def at_start(ode: AugmentedODE) -> tuple[Diagnostic, ...]:
         NS116 where the parameters alone make a rate undefined.
     """
     start = _Start.of(ode, missing=1.0)
-    found: dict[Diagnostic, None] = {}
+    found: dict[Diagnostic, None] = dict.fromkeys(_undefined_starts(ode, start))
     for rate in ode.rates:
         for indices in _ends(rate):
             try:
@@ -82,6 +82,25 @@ def _pressed(term: SetValuedTerm, gap: float, at: int | None) -> Diagnostic:
     )
 
 
+def _undefined_starts(ode: AugmentedODE, start: _Start) -> Iterator[Diagnostic]:
+    """Yield an error for each state that the parameters give no value at the start."""
+    if any(math.isnan(value) for parameter in ode.parameters for value in parameter.values):
+        return
+    for state in ode.states:
+        for indices in _ends(state):
+            try:
+                culprit = start.culprit(state.initial, indices)
+            except _GiveUpError:
+                continue
+            if culprit is not None:
+                yield Diagnostic(
+                    "NS116",
+                    f"`{state.name}` has no value at the start",
+                    (Label(culprit.span, "undefined with these parameters"),),
+                    help="check the parameters that it reads",
+                )
+
+
 def initial_state(ode: AugmentedODE) -> list[float]:
     """Return x at the start, as NAME_init of the generated C does; NaN where unknown."""
     start = _Start.of(ode, missing=math.nan)
@@ -96,12 +115,12 @@ def initial_state(ode: AugmentedODE) -> list[float]:
     return found
 
 
-def _ends(rate: Rate) -> Iterator[dict[str, int]]:
-    if rate.range is None:
+def _ends(item: Rate | State) -> Iterator[dict[str, int]]:
+    if item.range is None:
         yield {}
-    elif len(rate.range):
-        yield {rate.range.variable: rate.range.first}
-        yield {rate.range.variable: rate.range.last}
+    elif len(item.range):
+        yield {item.range.variable: item.range.first}
+        yield {item.range.variable: item.range.last}
 
 
 def _terms(expr: Expr) -> int:

@@ -173,17 +173,29 @@ def _unknown(method: str, run: Run | None) -> list[Diagnostic]:
     if library is not None and find_spec(library) is None:
         way_out = f"`pip install {library}`"
         return [Diagnostic("NS501", f"`{method}` needs `{library}`", help=way_out)]
-    if method in methods():
-        return []
-    return [
-        Diagnostic(
-            "NS501",
-            f"there is no method `{method}`",
-            () if run is None else (Label(run.span),),
-            notes=("the methods are " + quoted(methods()),),
-            help=suggest(method, methods()),
-        )
-    ]
+    return [] if method in methods() else [_no_method(method, run)]
+
+
+def _no_method(method: str, run: Run | None) -> Diagnostic:
+    return Diagnostic(
+        "NS501",
+        f"there is no method `{method}`",
+        () if run is None else (Label(run.span),),
+        notes=("the methods are " + quoted(methods()),),
+        help=suggest(method, methods()),
+    )
+
+
+def check_method(run: Run) -> None:
+    """Refuse a model whose method there is not, installed or not.
+
+    Raises
+    ------
+    ModelError
+        NS501.
+    """
+    if run.method is not None and run.method not in methods():
+        raise ModelError([_no_method(run.method, run)])
 
 
 def _every(wish: Wish, run: Run, step: float) -> tuple[int, list[Diagnostic]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from nsode.diagnostics import suggest
 from nsode.syntax.misfit import OPERATORS, Misfit
 from nsode.syntax.tokens import Token
 from nsode.syntax.words import FUNCTION_NAMES, KEYWORDS, STATEMENT_KEYWORDS
@@ -67,6 +68,12 @@ def _comment(misfit: Misfit) -> str | None:
     slash = misfit.text == "/" and (misfit.last is None or misfit.last.text == "/")
     star = misfit.text == "*" and misfit.last is not None and misfit.last.text == "/"
     return "a comment begins with `#`" if slash or star else None
+
+
+def _run(misfit: Misfit) -> str | None:
+    if misfit.first.type != "SIMULATE" or misfit.type != "NAME":
+        return None
+    return suggest(misfit.text, ("step", "every", "method"))
 
 
 def _unit(misfit: Misfit) -> str | None:
@@ -154,6 +161,9 @@ def _plus(misfit: Misfit) -> str | None:
 def _ends(misfit: Misfit) -> str | None:
     if misfit.bad is not None or misfit.last is None:
         return None
+    if misfit.first.type in ("STATE", "PARAMETER") and "EQUAL" in misfit.accepted:
+        when = " at the start" if misfit.first.type == "STATE" else ""
+        return f"give it a value{when}: `{misfit.first.text} {misfit.last.text} = 0`"
     if misfit.last.type in OPERATORS | {"EQUAL"}:
         return "a statement goes on in the next line only inside ( and ["
     if misfit.first.text == "end":
@@ -170,6 +180,7 @@ _HINTS: tuple[Callable[[Misfit], str | None], ...] = (
     _conditional,
     _power,
     _comment,
+    _run,
     _unit,
     _application,
     _loop,

@@ -73,6 +73,10 @@ def test_is_not_proved(factor: str) -> None:
         ("w > 0 and v > 0", "v*w"),
         ("v + w >= N", "w - N + v"),
         ("x[2] >= 0", "x[2]"),
+        ("not (w < 0)", "w"),
+        ("not (w <= mu)", "1/(w - mu)"),
+        ("w == 2", "w"),
+        ("w == mu", "w - mu"),
     ],
 )
 def test_is_proved_by_an_assumption(assumption: str, factor: str) -> None:

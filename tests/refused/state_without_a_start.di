@@ -1,0 +1,3 @@
+model fall
+state v
+der(v) = -9.8
