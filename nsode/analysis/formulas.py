@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib.util import find_spec
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from nsode.analysis.mass import EffectiveMass, effective_mass
@@ -43,11 +44,16 @@ def symbolic_mass(
 ) -> tuple[tuple[str, ...], sympy.ImmutableMatrix | None]:
     """Return the names of the multipliers and W in terms of some symbols.
 
-    There is no matrix where the scene has families of terms or its W has kinks.
+    A parameter without a symbol counts with its value. There is no matrix where the scene
+    has families of terms or its W has kinks.
     """
+    import sympy
+
     scene = Scene(inclusion)
     mass = effective_mass(scene, scene.at(scene.start))
-    return mass.names, _matrix(scene, mass, symbols)
+    values = {p.name: p.values[0] for p in inclusion.parameters if p.range is None}
+    known = {name: sympy.Rational(repr(v)) for name, v in values.items() if isfinite(v)}
+    return mass.names, _matrix(scene, mass, {**known, **symbols})
 
 
 def _matrix(

@@ -271,6 +271,11 @@ def test_w_behind_a_mass_matrix_is_its_inverse():
     assert (found.W * mass).applyfunc(sp.simplify) == sp.eye(2)
 
 
+def test_w_holds_the_numbers_that_were_baked_in():
+    found = nsode.load(MODELS / "rolling_sphere.di").baked({"M": 2.0}).sympy()
+    assert sp.diag(sp.Rational(1, 2), sp.Rational(7, 4), sp.Rational(7, 4)) == found.W
+
+
 def test_families_have_no_w():
     assert nsode.load(MODELS / "granular_column.di").sympy().W is None
 
