@@ -86,12 +86,17 @@ def unstable(inclusion: DifferentialInclusion, steps: Mapping[str, StableStep]) 
 def _beyond(inclusion: DifferentialInclusion, limit: StableStep, chosen: float) -> Diagnostic:
     mode = f"a mode of {limit.frequency:.4g} rad/s with damping ratio {limit.damping:.2g}"
     where = active_text(limit.modes) or "no element active"
-    ways = [f"take a step of at most {_below(limit.found)} {{s}}"]
+    told = f"the step {chosen:g} s is beyond what {limit.method} can take: {limit.found:.3g} s"
+    ways = ["choose another method, such as rk4"]
+    if limit.found > 0:
+        ways = [f"take a step of at most {_below(limit.found)} {{s}}"]
+    else:
+        told = f"{limit.method} can take no step: it feeds what nothing damps"
     for constant, power in limit.change[:1]:
         ways.append(f"{'lower' if power < 0 else 'raise'} `{constant}`")
     return Diagnostic(
         "NS407",
-        f"the step {chosen:g} s is beyond what {limit.method} can take: {limit.found:.3g} s",
+        told,
         (Label(inclusion.run.span, "where this set occurs, finite and wrong"),),
         notes=(f"the limit is set by {mode}, while {where}",),
         help=", or ".join(ways),

@@ -66,7 +66,7 @@ class StableStep:
     @property
     def damping(self) -> float:
         """The damping ratio of the limiting mode, 1 where it does not oscillate."""
-        return -self.eigenvalue.real / abs(self.eigenvalue)
+        return 0.0 - self.eigenvalue.real / abs(self.eigenvalue)
 
 
 @dataclass(frozen=True, slots=True)

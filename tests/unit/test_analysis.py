@@ -295,6 +295,15 @@ def test_what_ends_finite_and_wrong_is_announced(name, change, into):
     }
 
 
+@pytest.mark.parametrize("method", ["euler", "heun"])
+def test_a_method_that_feeds_an_elastic_contact_can_take_no_step(method):
+    text = BY_NAME["bouncing_mass"].read_text().replace("alpha = 5e-3", "alpha = 1e-2")
+    [found] = warnings(nsode.loads(text.replace("rk4", method)).inclusion)
+    assert (found.code, found.severity) == ("NS407", "warning")
+    assert f"{method} can take no step" in found.message
+    assert "such as rk4" in found.help
+
+
 def test_lightly_damped_stick_is_announced_with_its_frequency():
     found = of(inclusions.sliding_mass())
     (friction,) = found.frictions
