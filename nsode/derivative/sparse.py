@@ -27,7 +27,19 @@ from nsode.derivative.rules import (
     summed,
     times,
 )
-from nsode.expr import Expr, Index, IndexRange, Name, Number, add, multiply, names, negate
+from nsode.expr import (
+    Call,
+    Expr,
+    Index,
+    IndexRange,
+    Name,
+    Number,
+    add,
+    multiply,
+    names,
+    negate,
+    walk,
+)
 from nsode.ode import (
     AugmentedODE,
     Binding,
@@ -177,14 +189,21 @@ class _Chain:
     def _guarded(self, partial: Partial, inner: Expr) -> Expr:
         """Multiply by the slope behind a partial, which stays unlooked at in a dead branch.
 
-        One that reads parameters alone may stand outside, so that columns share the branch.
+        A product of parameters is finite and may stand outside, so that columns share the
+        branch.
         """
-        if is_small(partial.coefficient, _SHORT) or not all(map(self._is_given, names(inner))):
+        if is_small(partial.coefficient, _SHORT) or not all(map(self._is_given, walk(inner))):
             return guarded(partial.where, times(partial.coefficient, inner))
         return times(guarded(partial.where, partial.coefficient), inner)
 
-    def _is_given(self, name: Name) -> bool:
-        return name.id not in self.variables and name.id not in self.columns
+    def _is_given(self, node: Expr) -> bool:
+        match node:
+            case Name(name):
+                return name not in self.variables and name not in self.columns
+            case Call(function):
+                return function in ("*", "neg")
+            case _:
+                return isinstance(node, Number)
 
     def _through(self, name: Name) -> Iterator[_Dependence]:
         """Yield what a name depends on, at the element where it is read."""

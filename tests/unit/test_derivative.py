@@ -15,7 +15,7 @@ from nsode.backends.casadi import functions
 from nsode.derivative import derivative, jacobian, partials, pattern, time_derivative
 from nsode.evaluate import evaluate
 from nsode.expr import FUNCTIONS, Call, Expr, If, Index, IndexRange, Name, Number, Sum
-from nsode.ode import AugmentedODE, Binding, LinearSolve, Rate, State, layout
+from nsode.ode import AugmentedODE, Binding, LinearSolve, Parameter, Rate, State, layout
 from tests.support import MODELS
 from tests.support.native import Native, build
 from tests.support.odes import Maker, call, ode, of_rates
@@ -237,6 +237,21 @@ def test_the_jacobian_of_a_model_is_casadis_away_from_kinks_and_finite_at_them(p
         np.testing.assert_allclose(dense_of_numpy(model.ode, x), wanted, atol=1e-12 * size)
     assert np.isfinite(dense(native, 0.0, start, None, None)).all()
     assert np.isfinite(dense(native, 0.0, np.zeros(len(start)), None, None)).all()
+
+
+def test_a_quotient_by_zero_in_a_dead_branch_leaves_the_jacobian_finite(tmp_path):
+    """y = x/k is infinite for k = 0, where the author left it out."""
+    x, y, k = Name("x"), Name("y"), Name("k")
+    long = call("*", call("*", call("sin", y), call("cos", y)), call("exp", call("neg", y)))
+    made = ode(
+        states=[State("x", Number(1.0))],
+        parameters=[Parameter("k", (0.0,))],
+        bindings=[Binding("y", call("/", x, k))],
+        rates=[Rate("x", If(call(">", k, 0), long, Number(0.0)))],
+    )
+    native = build(made, tmp_path)
+    assert dense(native, 0.0, [1.0], None, None).tolist() == [[0.0]]
+    assert dense_of_numpy(made, np.ones(1)).tolist() == [[0.0]]
 
 
 def test_a_nest_of_functions_is_derived_part_by_part():
