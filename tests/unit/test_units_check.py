@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import nsode
 from nsode.diagnostics import Diagnostic, ModelError
 from nsode.evaluate import evaluate
 from nsode.inclusion.build import build
@@ -337,3 +338,17 @@ def test_the_help_names_the_factor_that_is_missing() -> None:
     assert problem.help == (
         "they differ by a factor in `kg`: one is missing, or a declared unit is wrong"
     )
+
+
+def test_an_output_without_a_unit_has_that_of_its_value():
+    model = nsode.loads(
+        "model ball\n"
+        "parameter M = 1 {kg}\nparameter g = 9.8 {m/s^2}\n"
+        "state p = 1 {m}\nstate v = 0 {m/s}\n"
+        "force N = dio(p)\n"
+        "der(p) = v\nM*der(v) = N - M*g\n"
+        "output energy = 1/2*M*v^2 + M*g*p\noutput share = v/(abs(v) + v)*2\noutput two = 2\n"
+        "approximate N: K = 1e5 {N/m}, beta = 1e-2 {s}, alpha = 5e-3 {s}\n"
+    )
+    units = {output.name: output.unit for output in model.ode.outputs}
+    assert units == {"energy": "N*m", "share": None, "two": None, "N": "N"}

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from nsode.diagnostics import Diagnostic
-from nsode.dimension import SECOND
+from nsode.dimension import ONE, SECOND
 from nsode.expr import TIME, Expr
 from nsode.inclusion.equations import derivative_name
 from nsode.inclusion.units import messages
@@ -20,6 +20,7 @@ from nsode.ode import (
     Binding,
     DifferentialInclusion,
     LinearSolve,
+    Output,
     Placed,
     SetValuedTerm,
 )
@@ -38,7 +39,8 @@ def check_units(
     -------
     inclusion
         With the unit of every declared item, forces included, in which its values
-        stand: SI, in the declared words where these are SI.
+        stand: SI, in the declared words where these are SI. An output without one has
+        that of its value.
     problems
         NS115 for units that do not fit, NS114 for unknown ones.
     """
@@ -49,7 +51,17 @@ def check_units(
     check = _Check(declared, _inference(inclusion, declared), states)
     check.whole(inclusion)
     problems = (*declared.unknown, *check.inference.found.values())
-    return stated_in_si(inclusion, declared), problems
+    stated = stated_in_si(inclusion, declared)
+    outputs = tuple(_with_unit(output, check.inference) for output in stated.outputs)
+    return replace(stated, outputs=outputs), problems
+
+
+def _with_unit(output: Output, inference: Inference) -> Output:
+    """Give an output without a unit that of its value, as far as it is known."""
+    found = inference.of(output.value).rigid
+    if output.unit is not None or found in (None, ONE):
+        return output
+    return replace(output, unit=str(found))
 
 
 def _inference(inclusion: DifferentialInclusion, declared: Declared) -> Inference:
