@@ -85,6 +85,8 @@ class ModelWriter:
         rate = self.random.choice([f"-{name}[i]", f"(if i > 1 then {name}[i-1] else 0)"])
         self.lines.append(f"state {name}[i in 1..n] = {self.number()}*i")
         self.lines.append(f"for i in 1..n: der({name}[i]) = {rate}")
+        if self.random.random() < 0.3:
+            self.lines.append(f"for i in 1..n: assume abs({name}[i]) >= {name}[i]")
         self.scalars.append(f"sum(j in 1..n: {name}[j]^2)")
 
     def let(self) -> None:
