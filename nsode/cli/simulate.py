@@ -86,7 +86,7 @@ def _picture(context: click.Context, parameter: click.Parameter, value: str | No
 )  # fmt: skip
 @click.option(
     "--ledger", is_flag=True,
-    help="Store also what each element stores, dissipates and is given, and draw it.",
+    help="Store also what each element stores, dissipates and is given; a figure shows it anyway.",
 )  # fmt: skip
 @click.option("--strict", is_flag=True, help="Refuse what draws a warning before the run.")
 @click.option("--no-guard", is_flag=True, help="Go on where energy comes from nothing.")
@@ -99,19 +99,29 @@ def command(model: Model, **options: Any) -> int:
     """
     from nsode.simulate import RunError
     from nsode.simulate.foresee import TOLD
+    from nsode.simulate.panels import left_out, without_ledger
 
     order = Order(**options)
     drawing = order.picture(model.name)
     _check_places(order.output, drawing)
     complain([d for d in model.diagnostics if d.code not in TOLD], model.source)
     try:
-        trajectory = _run(model.with_ledger() if order.ledger else model, order)
+        kept = order.ledger or drawing is not None
+        trajectory = _run(model.with_ledger() if kept else model, order)
         status = _INTERRUPTED if trajectory.meta["run"]["interrupted"] else 0
     except RunError as error:
         trajectory, status = error.trajectory, 1
         complain(error.diagnostics, error.source)
-    say(str(trajectory))
-    _write(trajectory, order.output, drawing)
+    told = trajectory if order.ledger else without_ledger(trajectory)
+    say(str(told))
+    if order.output is not None:
+        with writing():
+            told.save(order.output)
+        say(quiet(f"wrote {order.output}"))
+    if drawing is not None:
+        with writing():
+            trajectory.plot(file=drawing)
+        say(quiet(f"wrote {drawing}{left_out(trajectory)}"))
     return status
 
 
@@ -169,16 +179,3 @@ def _signal(name: str, text: str) -> Signal:
         return float(text)
     except ValueError:
         return read(Path(text), name)
-
-
-def _write(trajectory: Trajectory, output: Path | None, drawing: Path | None) -> None:
-    if output is not None:
-        with writing():
-            trajectory.save(output)
-        say(quiet(f"wrote {output}"))
-    if drawing is not None:
-        from nsode.simulate.panels import left_out
-
-        with writing():
-            trajectory.plot(file=drawing)
-        say(quiet(f"wrote {drawing}{left_out(trajectory)}"))

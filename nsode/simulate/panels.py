@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -50,6 +50,14 @@ def left_out(trajectory: Trajectory) -> str:
     """Return what a figure of a whole run has no room for, empty where it shows all."""
     more = len(_own(trajectory)) + len(_acting(trajectory)) - len(panels(trajectory))
     return f", without {more:,} of the states and outputs" if more else ""
+
+
+def without_ledger(trajectory: Trajectory) -> Trajectory:
+    """Return a run without the columns of the ledger."""
+    ledger = _ledger(trajectory)
+    kept = [k for k, name in enumerate(trajectory.y_names) if name not in ledger]
+    names = tuple(trajectory.y_names[k] for k in kept)
+    return replace(trajectory, y=trajectory.y[:, kept], y_names=names) if ledger else trajectory
 
 
 def stem(name: str) -> str:

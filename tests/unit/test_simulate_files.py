@@ -411,6 +411,18 @@ def test_a_figure_tells_how_much_it_leaves_out():
     assert left_out(many.simulate()) == ", without 3 of the states and outputs"
 
 
+def test_a_figure_draws_energies_and_the_files_beside_it_do_not_change(tmp_path, capfd):
+    pytest.importorskip("matplotlib")
+    model, alone, beside = str(MODELS / "bouncing_mass.di"), tmp_path / "a.csv", tmp_path / "b.csv"
+    assert command(["simulate", model, "-o", str(alone)]) == 0
+    said = capfd.readouterr().out
+    figure = tmp_path / "m.svg"
+    assert command(["simulate", model, "-o", str(beside), "--plot", str(figure)]) == 0
+    assert beside.read_bytes() == alone.read_bytes()
+    assert capfd.readouterr().out.splitlines()[:-2] == said.splitlines()[:-1]
+    assert "<!-- energy [J] -->" in figure.read_text()
+
+
 def test_the_command_stores_the_ledger_with_the_run(tmp_path):
     file = tmp_path / "run.npz"
     model = str(MODELS / "bouncing_mass.di")
