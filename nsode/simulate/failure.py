@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
+from nsode.evaluate import evaluate
+from nsode.expr import TIME, names
 from nsode.integrators import REGISTRY, RungeKutta
-from nsode.ode import AugmentedODE, element_names
+from nsode.ode import AugmentedODE, Check, element, element_names
 from nsode.simulate.inputs import Inputs
 from nsode.simulate.loop import Record
 from nsode.simulate.machine import BROKEN, NOT_FINITE, SINGULAR, Machine, Vector
@@ -43,7 +45,8 @@ def cause(
     """Return why the step after the last one of a record failed."""
     now = settings.start + found.taken * settings.step
     where = f"in step {found.taken + 1:,} at t = {now:.6g} s"
-    kept = f"{len(found.t):,} rows up to there are kept"
+    rows = len(found.t)
+    kept = "the row before it is kept" if rows == 1 else f"{rows:,} rows up to there are kept"
     if found.status == NOT_FINITE:
         names = _not_finite(ode, machine, settings, now, inputs.at(now), p, found.x)
         return Diagnostic(
@@ -58,16 +61,53 @@ def cause(
         return Diagnostic("NS113", message, notes=(kept,))
     if found.status >= BROKEN:
         check = ode.checks[found.status - BROKEN]
-        text = ode.source.on_one_line(check.span)
-        assumed = check.kind == "assume"
-        broken = f"`{text}` was assumed" if assumed else f"{check.reason} is negative"
+        at = _broken_at(check, ode, _Values(now, found.x, inputs.at(now), p))
         return Diagnostic(
             "NS505",
-            f"a condition of the model does not hold {where}",
-            (Label(check.span, broken),),
+            f"a condition of the model does not hold{at} {where}",
+            (Label(check.span, _broken(check, ode)),),
             notes=(kept,),
         )
     return Diagnostic("NS504", f"a step returned status {found.status} {where}", notes=(kept,))
+
+
+def _broken(check: Check, ode: AugmentedODE) -> str:
+    text = ode.source.on_one_line(check.span)
+    match check.kind:
+        case "assume":
+            return f"`{text}` was assumed"
+        case "bound":
+            return f"`{text}` was declared"
+    return f"{check.reason} is negative"
+
+
+class _Values(NamedTuple):
+    """Where a run is: the time, the states, the inputs and the parameters."""
+
+    t: float
+    x: Vector
+    u: Vector
+    p: Vector
+
+
+def _broken_at(check: Check, ode: AugmentedODE, now: _Values) -> str:
+    """Return the first index at which a family breaks a check; nothing where a let tells it."""
+    vectors = ((ode.states, now.x), (ode.inputs, now.u), (ode.parameters, now.p))
+    known = {item.name for items, _ in vectors for item in items} | {TIME}
+    if check.range is None or any(name.id not in known for name in names(check.condition)):
+        return ""
+    value: dict[str, float] = {TIME: now.t}
+    for items, vector in vectors:  # an empty vector has one place
+        value.update(zip(element_names(items), vector.tolist(), strict=False))
+
+    def lookup(name: str, at: int | None) -> float:
+        return value[name if at is None else element(name, at)]
+
+    variable, first, last = check.range
+    for k in range(first, last + 1):
+        if not evaluate(check.condition, lookup, {variable: k}):
+            return f" for `{variable} = {k}`"
+    return ""
 
 
 def interrupted(settings: Settings, found: Record) -> Diagnostic:

@@ -103,11 +103,11 @@ def _running(ode: AugmentedODE) -> list[Check]:
     """Return the checks that every step must make.
 
     Those that read parameters alone are made once, before a run. A factor is proved
-    nonnegative from these and from assumptions: without assumptions on states there is
-    nothing left to check, and looking would cost a step half of its time again.
+    nonnegative from these, from bounds of inputs and from assumptions: without the latter two
+    there is nothing left to check, and looking would cost a step half of its time again.
     """
     open_ = [check for check in ode.checks if not settled(check, ode)]
-    return open_ if any(check.kind == "assume" for check in open_) else []
+    return open_ if any(check.kind != "factor" for check in open_) else []
 
 
 def _forces(terms: Sequence[SetValuedTerm]) -> list[Output]:

@@ -291,11 +291,25 @@ def test_an_assumption_is_watched_for_every_element_of_a_family():
         "for i in 1..3: der(q[i]) = -1\nfor i in 1..3: der(v[i]) = -q[i]*sgn(v[i])\n"
         "approximate default sgn: K = 1e3, beta = 4e-2\n"
     )
-    for start, first in (([3, 1, 2], 1.0), ([3, 2, 1.5], 1.5)):
-        with pytest.raises(RunError) as refusal:
+    for start, first, which in (([3, 1, 2], 1.0, 2), ([3, 2, 1.5], 1.5, 3)):
+        with pytest.raises(RunError, match=f"does not hold for `i = {which}` in step") as refusal:
             model.simulate(2.5, 1e-2, parameters={"q0": start})
         assert codes(refusal) == ["NS505"]
         assert refusal.value.trajectory.t[-1] == pytest.approx(first, abs=0.02)
+
+
+def test_the_bound_of_an_input_is_watched():
+    model = nsode.loads(
+        "model m\ninput u = 1 >= 0\nstate v = 1\nder(v) = -u*sgn(v)\n"
+        "approximate sgn1: K = 1e3, beta = 4e-2\n"
+    )
+    assert abs(model.simulate(2, 1e-3).x[-1][0]) < 1e-3
+    with pytest.raises(RunError, match="does not hold in step 1 at") as refusal:
+        model.simulate(2, 1e-3, inputs={"u": -1.0})
+    assert codes(refusal) == ["NS505"]
+    with pytest.raises(RunError, match="`>= 0` was declared") as refusal:
+        model.simulate(2, 1e-3, inputs={"u": lambda t: 0.5 - t})
+    assert refusal.value.trajectory.t[-1] == pytest.approx(0.5, abs=2e-3)
 
 
 def test_an_element_that_breaks_a_proof_is_named_once():
