@@ -122,6 +122,7 @@ def no_compiler(monkeypatch):
     monkeypatch.setattr(scene, "compiler", lambda: None)
 
 
+@pytest.mark.filterwarnings("ignore:a step of .* does not resolve the impacts")  # Euler's
 @pytest.mark.parametrize("method", REGISTRY)
 def test_without_a_compiler_casadi_runs_the_model_to_the_same_numbers(method, request):
     pytest.importorskip("casadi")
