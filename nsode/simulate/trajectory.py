@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _PART = re.compile(r"(\[-?\d+\])?(\.([xyzw]|\d+))?")
+_ELEMENT = re.compile(r"\[-?\d+\](?=\.)")
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -73,7 +74,8 @@ class Trajectory:
         """Return a column by its name, or all columns of a vector or a family.
 
         ``sol["p.z"]`` is one column, ``sol["p"]`` those of ``p.x``, ``p.y`` and ``p.z``,
-        ``sol["N.psi"]`` the gap of a contact, ``sol["t"]`` the times.
+        ``sol["N.psi"]`` the gap of a contact, or those of a family of contacts,
+        ``sol["t"]`` the times.
 
         Raises
         ------
@@ -257,5 +259,8 @@ class Trajectory:
 
 
 def _belongs(name: str, to: str) -> bool:
-    """Whether ``name`` is a component or an element of ``to``."""
-    return name.startswith(to) and _PART.fullmatch(name, len(to)) is not None
+    """Whether ``name`` is a component or an element of ``to``, ``F[3].a.x`` one of ``F.a``."""
+    for known in (name, _ELEMENT.sub("", name, count=1)):
+        if known == to or (known.startswith(to) and _PART.fullmatch(known, len(to))):
+            return True
+    return False

@@ -52,6 +52,27 @@ def test_a_column_is_found_by_its_name_and_a_vector_by_its_stem(sphere):
     assert sphere["t"] is sphere.t
 
 
+def test_a_component_of_a_family_is_that_of_each_element():
+    text = """\
+model family
+constant n = 3
+state x[i in 1..n][2] = [0.1*i, -0.2*i]
+force F[i in 1..n] = 2*sgn(x[i])
+force N[i in 1..n] = dio(x[i].x)
+for i in 1..n: der(x[i]) = [N[i], 0] - F[i]
+approximate F: K = 100, beta = 1e-2
+approximate N: K = 100, beta = 1e-2, alpha = 5e-3
+"""
+    run = nsode.loads(text).simulate(0.1, step=1e-3)
+    each = [run[f"F[{i}].a.x"] for i in (1, 2, 3)]
+    assert np.array_equal(run["F.a.x"], np.column_stack(each))
+    assert run["F.a"].shape == (len(run), 6)
+    assert run["N.e"].shape == run["N.psi"].shape == run["x.y"].shape == (len(run), 3)
+    assert np.array_equal(run["F[2].a"], run["F.a"][:, [1, 4]])  # as stored: each x, then each y
+    with pytest.raises(KeyError, match=r"nothing is called `F.b`"):
+        run["F.b"]
+
+
 def test_forces_and_units_are_known(sphere):
     assert sphere.forces == ("N", "F.x", "F.y")
     assert sphere.unit("v.x") == "m/s"
