@@ -18,6 +18,8 @@ from nsode.source import NOWHERE, Source, Span
 
 #: What the name of a state ends with where it stands for the rate of that state.
 RATE_SUFFIX = ".rate"
+#: What the derivative in time of any other name ends with.
+DOT_SUFFIX = ".dot"
 
 
 @dataclass(frozen=True, slots=True)

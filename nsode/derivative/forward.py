@@ -15,13 +15,13 @@ from nsode.expr import (
     Index,
     IndexRange,
     Name,
-    Number,
     add,
     children,
     multiply,
     negate,
 )
 from nsode.ode import (
+    DOT_SUFFIX,
     Binding,
     Definition,
     LinearSolve,
@@ -87,8 +87,8 @@ def time_derivatives(
 ) -> tuple[tuple[Definition, ...], tuple[Row, ...]]:
     """Return the derivatives of some values along the rates of ``system`` (Lie derivatives).
 
-    Inputs and parameters are constant in time. The derivative of a name ``x`` that is
-    no plain value stands in a new definition ``x.dot``.
+    Inputs and parameters are constant in time. The derivative of a name ``x``, unless it is
+    a name itself, stands in a new definition ``x.dot``.
 
     Parameters
     ----------
@@ -109,94 +109,112 @@ def time_derivatives(
     ValueError
         If a value reads a multiplier, whose derivative no equation gives.
     """
-    motion = _Motion.of(system)
-    derived = []
-    for state, value, span in ((row.state, row.value, row.range) for row in rows):
-        motion.prepare(value)
-        moving = tangent(value, motion.along, _variables(span))
-        derived.append(Row(state, moving or ZERO, span))
+    motion = Motion.of(system)
+    derived = [
+        Row(state, motion.derivative(value, _variables(span)), span)
+        for state, value, span in ((row.state, row.value, row.range) for row in rows)
+    ]
     return tuple(motion.emitted), tuple(derived)
 
 
 @dataclass(slots=True)
-class _Motion:
-    """What moves, and the derivatives written so far."""
+class Motion:
+    """What moves, and the derivatives written so far.
 
-    definitions: Mapping[str, Definition]
-    rates: Mapping[str, Binding]
-    known: dict[str, Expr | None] = field(default_factory=dict)
+    ``emitted`` holds the definitions of derivatives, in order. Where the derivative of a
+    name is defined already, it is read.
+    """
+
+    rates: Mapping[str, Binding] = field(default_factory=dict)
     emitted: list[Definition] = field(default_factory=list)
-    rank: dict[str, int] = field(default_factory=dict)
+    _definitions: dict[str, Definition] = field(default_factory=dict)
+    _known: dict[str, Expr | None] = field(default_factory=dict)
+    _rank: dict[str, int] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, system: System) -> _Motion:
-        definitions = {name: item for item in system.bindings for name in defined(item)}
-        rank = {name: k for k, name in enumerate(definitions)}
-        return cls(definitions, merged_rates(system.rates), rank=rank)
+    def of(cls, system: System) -> Motion:
+        """Return the motion of a system."""
+        motion = cls(merged_rates(system.rates))
+        for item in system.bindings:
+            motion.define(item)
+        return motion
 
-    def prepare(self, value: Expr) -> None:
+    def define(self, item: Definition) -> None:
+        """Take in a definition, behind those that it reads."""
+        for name in defined(item):
+            self._definitions[name] = item
+            self._rank[name] = len(self._rank)
+
+    def derivative(self, value: Expr, taken: frozenset[str] = frozenset()) -> Expr:
+        """Return the derivative of a value in time, where some indices are taken."""
+        self._prepare(value)
+        return tangent(value, self._along, taken) or ZERO
+
+    def _prepare(self, value: Expr) -> None:
         """Derive what a value rests on, in order, so that nothing recurses through names."""
         found: set[str] = set()
         waiting = [value]
         while waiting:
             for name in _derived(waiting.pop()):
-                item = self.definitions.get(name)
+                item = self._definitions.get(name)
                 if item is None or isinstance(item, SetValuedTerm):
                     continue
-                if name not in found and name not in self.known:
+                if name not in found and name not in self._known:
                     found.add(name)
                     waiting.extend(expressions(item))
-        for name in sorted(found, key=self.rank.__getitem__):
-            self.along(Name(name))
+        for name in sorted(found, key=self._rank.__getitem__):
+            self._along(Name(name))
 
-    def along(self, name: Name) -> Expr | None:
+    def _along(self, name: Name) -> Expr | None:
         if name.id == TIME:
             return ONE
-        if name.id not in self.known:
-            self.known[name.id] = self._derive(name.id)
-        return _read(self.known[name.id], name.at)
+        if name.id not in self._known:
+            self._known[name.id] = self._derive(name.id)
+        return _read(self._known[name.id], name.at)
 
     def _derive(self, name: str) -> Expr | None:
+        moving = self._definitions.get(f"{name}{DOT_SUFFIX}")
+        if isinstance(moving, Binding):
+            return _whole(moving)
         if name in self.rates:
             return self._emit(name, self.rates[name].value, self.rates[name].range)
-        match self.definitions.get(name):
+        match self._definitions.get(name):
             case None:
                 return None
             case Binding(_, value, span):
-                derived = tangent(value, self.along, _variables(span))
+                derived = tangent(value, self._along, _variables(span))
                 return None if derived is None else self._emit(name, derived, span)
             case LinearSolve() as solve:
                 self._solve(solve)
-                return self.known[name]
+                return self._known[name]
             case SetValuedTerm():
                 raise ValueError(f"the multiplier `{name}` has no derivative in time")
 
     def _emit(self, name: str, value: Expr, span: IndexRange | None) -> Expr:
-        """Name a derivative, unless it is a plain value already."""
+        """Name a derivative, unless it is a name already."""
         match value:
-            case Number() | Name(at=None):
+            case Name(at=None):
                 return value
             case _:
-                self.emitted.append(
-                    Binding(f"{name}.dot", value, span, role="part", span=value.span)
-                )
-                return Name(f"{name}.dot", Index(span.variable) if span else None)
+                moving = Binding(f"{name}{DOT_SUFFIX}", value, span, role="part", span=value.span)
+                self.emitted.append(moving)
+                return _whole(moving)
 
     def _solve(self, solve: LinearSolve) -> None:
         """``M u = r`` gives ``M u' = r' - M' u``: the same matrix again."""
         right = []
         for row, value in zip(solve.matrix, solve.right, strict=True):
-            terms = [tangent(value, self.along, _variables(solve.range))]
+            terms = [tangent(value, self._along, _variables(solve.range))]
             for coefficient, unknown in zip(row, solve.unknowns, strict=True):
-                moving = tangent(coefficient, self.along, _variables(solve.range))
+                moving = tangent(coefficient, self._along, _variables(solve.range))
                 at = Index(solve.range.variable) if solve.range else None
                 terms.append(moving and negate(multiply(moving, Name(unknown, at))))
             present = [term for term in terms if term is not None]
             right.append(add(*present) if present else ZERO)
-        moved = tuple(f"{unknown}.dot" for unknown in solve.unknowns)
+        moved = tuple(f"{unknown}{DOT_SUFFIX}" for unknown in solve.unknowns)
         self.emitted.append(replace(solve, unknowns=moved, right=tuple(right)))
         at = Index(solve.range.variable) if solve.range else None
-        self.known |= {u: Name(dot, at) for u, dot in zip(solve.unknowns, moved, strict=True)}
+        self._known |= {u: Name(dot, at) for u, dot in zip(solve.unknowns, moved, strict=True)}
 
 
 def _derived(expr: Expr) -> Iterator[str]:
@@ -210,6 +228,11 @@ def _derived(expr: Expr) -> Iterator[str]:
                 stack.extend((then, otherwise))
             case node:
                 stack.extend(children(node))
+
+
+def _whole(item: Binding) -> Name:
+    """Return the name of a definition, of a family with its own index."""
+    return Name(item.name, Index(item.range.variable) if item.range else None)
 
 
 def _variables(span: IndexRange | None) -> frozenset[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nsode.expr import Call, Expr, If, Index, IndexRange, Name, Number, Sum
-from nsode.ode import RATE_SUFFIX
+from nsode.ode import DOT_SUFFIX, RATE_SUFFIX
 
 _CHOICE, _OR, _AND, _NOT, _COMPARE, _SUM, _MINUS, _PRODUCT, _POWER, _ATOM = range(10)
 
@@ -23,8 +23,9 @@ def number(value: float) -> str:
 
 def name(id: str, at: Index | None = None) -> str:
     """Return a name, or an element of a family: ``p.x`` at i+1 is ``p[i+1].x``."""
-    if id.endswith(RATE_SUFFIX):
-        return f"der({name(id.removesuffix(RATE_SUFFIX), at)})"
+    for suffix in (DOT_SUFFIX, RATE_SUFFIX):
+        if id.endswith(suffix):
+            return f"der({name(id.removesuffix(suffix), at)})"
     if at is None:
         return id
     head, dot, tail = id.partition(".")

@@ -50,9 +50,9 @@ def assemble(model: ast.Model, pieces: Pieces) -> DifferentialInclusion:
         NS106 for derivatives that depend on themselves, and what :func:`solve` refuses.
     """
     declared, elements, final = pieces.declared, pieces.elements, pieces.elements.renamed
-    bindings = pieces.definitions.bindings
+    bindings = tuple(pieces.definitions.bindings.values())
     solved, rates = solve(pieces.rows.rows, declared.states, declared.parameters, bindings)
-    provisional: list[Definition] = [*bindings, *pieces.rows.bindings.values(), *solved]
+    provisional: list[Definition] = [*bindings, *solved]
     named = [rename_definition(item, final) for item in provisional] if final else provisional
     rates = [replace(rate, value=rename(rate.value, final)) for rate in rates]
     return DifferentialInclusion(

@@ -78,9 +78,9 @@ def _read(model: ast.Model, symbols: Symbols, review: Review, report: Report) ->
     report.each(rows.hoist, model.all(ast.Equation))
     asked = report.each(definitions.hoisted, model.all(ast.OutputDeclaration))
     definitions.elaborate()
-    outputs = report.each(lambda one: output(one, symbols, review), asked)
+    scope = definitions.scope
+    outputs = report.each(lambda one: output(one, scope, review), asked)
     rows.elaborate(report)
-    scope = Scope(symbols)
     report.each(lambda state: declared.initial(state, scope), model.all(ast.StateDeclaration))
     assumed = report.each(lambda one: _assumed(one, scope, review), model.all(ast.Assumption))
     elements = _elements(definitions, model, review, report)
@@ -108,7 +108,7 @@ def _elements(
     definitions: Definitions, model: ast.Model, review: Review, report: Report
 ) -> Elements:
     """Return the distinct elements, with what the model says of their approximation."""
-    found = distinct(definitions.terms, definitions.inline, definitions.bindings)
+    found = distinct(definitions.terms, definitions.inline, definitions.bindings.values())
     report.found.extend(found.notes)
     said = Approximations(found.names, Scope(definitions.symbols, constants=True), review)
     report.each(said.add, model.all(ast.ApproximateStatement))

@@ -9,6 +9,7 @@ from nsode.diagnostics import ModelError, refuse
 from nsode.expr import Expr, Name, Number
 from nsode.inclusion.elaborate import elaborate
 from nsode.inclusion.fitting import declared_shape, fitted
+from nsode.inclusion.functions_of_time import FunctionsOfTime
 from nsode.inclusion.hoist import Hoister, RawTerm
 from nsode.inclusion.indices import index_range
 from nsode.inclusion.kinds import number
@@ -48,7 +49,8 @@ class Definitions:
     review: Review
     report: Report
     hoister: Hoister = field(init=False)
-    bindings: list[Binding] = field(default_factory=list)
+    in_time: FunctionsOfTime = field(init=False)
+    bindings: dict[str, Binding] = field(default_factory=dict)
     terms: list[SetValuedTerm] = field(default_factory=list)
     inline: set[str] = field(default_factory=set)
     forces: list[str] = field(default_factory=list)
@@ -56,11 +58,12 @@ class Definitions:
 
     def __post_init__(self) -> None:
         self.hoister = Hoister(self.report.source)
+        self.in_time = FunctionsOfTime(self.symbols, self.review, self.bindings)
 
     @property
     def scope(self) -> Scope:
-        """Where lets and forces stand."""
-        return Scope(self.symbols)
+        """Where expressions of the model stand."""
+        return Scope(self.symbols, derivative=self.in_time.der)
 
     def let(self, declaration: ast.LetDeclaration) -> None:
         """Take in ``let``, with its inline terms hoisted."""
@@ -134,9 +137,8 @@ class Definitions:
         self.symbols.define(Symbol(name.text, pending.kind, of, over, name.span, unit))
         role: Role = "force" if pending.kind == "force" else "let"
         for suffix, part in zip(suffixes(of), scalars(value), strict=True):
-            self.bindings.append(
-                Binding(name.text + suffix, part, over, role, unit, span=name.span)
-            )
+            whole = name.text + suffix
+            self.bindings[whole] = Binding(whole, part, over, role, unit, span=name.span)
 
     def _term(self, raw: RawTerm) -> None:
         over = index_range(raw.range, self.scope)

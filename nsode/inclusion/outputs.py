@@ -11,14 +11,14 @@ from nsode.inclusion.fitting import declared_shape, fitted
 from nsode.inclusion.indices import index_range
 from nsode.inclusion.kinds import number
 from nsode.inclusion.review import Review
-from nsode.inclusion.symbols import Scope, Symbols
+from nsode.inclusion.symbols import Scope
 from nsode.inclusion.units import in_si
 from nsode.inclusion.values import each, scalars, shape, suffixes
 from nsode.ode import Output
 from nsode.syntax.ast import OutputDeclaration
 
 
-def output(declaration: OutputDeclaration, symbols: Symbols, review: Review) -> list[Output]:
+def output(declaration: OutputDeclaration, scope: Scope, review: Review) -> list[Output]:
     """``output depth = max(0, R - p.z) {m}``: one output for each component.
 
     Raises
@@ -26,7 +26,7 @@ def output(declaration: OutputDeclaration, symbols: Symbols, review: Review) -> 
     ModelError
         If its value has no shape or not the one declared.
     """
-    declarator, unit, scope = declaration.declarator, declaration.unit, Scope(symbols)
+    declarator, unit = declaration.declarator, declaration.unit
     over = index_range(declarator.range, scope)
     value = each(number, elaborate(declaration.value, scope.with_index(over)))
     value = fitted(value, over, declared_shape(declarator, scope), declarator)

@@ -45,8 +45,8 @@ class Review:
             if size > self.limits.operations:
                 raise refuse(
                     "NS011",
-                    f"more than {self.limits.operations:,} operations when its vectors are "
-                    "written out",
+                    f"more than {self.limits.operations:,} operations when its vectors and "
+                    "derivatives are written out",
                     component.span,
                     help=either(
                         "name intermediate results with `let`", self.limits.raised("operations")

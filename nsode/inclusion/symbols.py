@@ -158,10 +158,10 @@ def _reserved(name: str) -> str | None:
 def _no_derivative(call: Call, scope: Scope) -> Value:
     raise refuse(
         "NS112",
-        "`der` stands outside an equation",
+        "`der` stands in a number that is known before a run",
         call.span,
-        "derivatives are known in equations only",
-        help="write out what it is: what the equation of a state says, the rate of a function",
+        "nothing changes here",
+        help="write the number; what changes in a run is a `let`",
     )
 
 

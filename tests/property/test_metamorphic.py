@@ -319,6 +319,8 @@ def in_another_frame(text: str, random: Random) -> tuple[str, list[int]]:
 
     def derived(match: re.Match[str]) -> str:
         name, element = match.groups()
+        if name not in turns:  # a function of time
+            return match[0]
         return f"({turns[name]}*der({name}_{element}))"
 
     return re.sub(r"der\((\w+)([^)]*)\)", derived, STATE.sub(declared, text)), ways

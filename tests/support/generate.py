@@ -41,6 +41,7 @@ class ModelWriter:
             self.lines.append(f"input u = {self.number()}{self.unit()}")
             self.scalars.append("u")
         states = [self.state() for _ in range(self.random.randint(1, 4))]
+        self._repeat(self.motion, 1)
         self._repeat(self.let, 3)
         self._repeat(self.force, 3)
         for name, size in states:
@@ -93,6 +94,11 @@ class ModelWriter:
         name = self.fresh("y")
         self.lines.append(f"let {name} = {self.scalar(3)}")
         self.scalars.append(name)
+
+    def motion(self) -> None:
+        name, known = self.fresh("r"), ModelWriter(self.random)
+        self.lines.append(f"let {name} = {known.scalar(2)}")
+        self.scalars += [name, f"der({name})", f"der(der({name}))"]
 
     def force(self) -> None:
         name = self.fresh("F")

@@ -52,6 +52,7 @@ class Twins:
     def _write(self) -> None:
         self._both(f"model twins{self.seed}")
         self._parameters()
+        self._motions()
         self._states()
         for k in range(self.random.randint(1, 4)):
             self._let(f"c{k}")
@@ -94,6 +95,13 @@ class Twins:
         else:
             self._each("parameter k{}", lambda k: f"0.3*{'i' if k is None else k} - 1")
         self.families.append("k")
+
+    def _motions(self) -> None:
+        """Write functions of time and their derivatives, while nothing else has a name."""
+        first, second = self._expression(2), self._expression(2)
+        self._each("let r{}", lambda k: f"t*{first(k)} + t^2*{second(k)}")
+        self._each("let d{}", lambda k: f"der({_element('r', k)})")
+        self.families += ["r", "d"]
 
     def _states(self) -> None:
         for name in ("u", "w"):

@@ -204,28 +204,3 @@ def test_families_that_couple_neighbors_are_refused() -> None:
     head = ("constant n = 3", "state x[i in 1..n] = 0")
     assert refused(*head, "der(x[1]) = 1", "for i in 2..n: der(x[i]) = der(x[i-1])") == ["NS112"]
     assert refused(*head, "for i in 1..n: der(x[i]) = sum(j in 1..n: der(x[j]))") == ["NS112"]
-
-
-def test_der_takes_a_function_of_time() -> None:
-    model = compiled(
-        "parameter w = 3",
-        "constant n = 2",
-        "let phase = w*t",
-        "let r[i in 1..n] = sin(i*phase)",
-        "let p = [cos(phase), t^2]",
-        "state a = 0",
-        "state b[2] = [0, 0]",
-        "der(a) = der(r[2]) + der(exp(2*t)) + der(w)",
-        "der(b) = der(p)",
-    )
-    found = rates(model, {}, t=0.5)
-    assert found["a"] == pytest.approx(6 * math.cos(3) + 2 * math.e, rel=1e-14)
-    assert found["b.x"] == pytest.approx(-3 * math.sin(1.5), rel=1e-14)
-    assert found["b.y"] == 1.0
-
-
-@pytest.mark.parametrize("of", ["u", "q", "x", "N", "2*x", "dio(x)", "sgn(x)"])
-def test_der_takes_nothing_that_is_not_known_in_time(of: str) -> None:
-    head = ("input u = 0", "state x = 0", "state y = 0", "let q = x^2", "force N = dio(x)")
-    found = refused(*head, "der(x) = N", f"der(y) = {of.join(('der(', ')'))}")
-    assert found == ([] if of == "x" else ["NS112"])

@@ -319,6 +319,22 @@ der(x) = der(s)
     assert "`der(x)` is in `m/s`, not in `m`" in message
 
 
+def test_the_unit_of_a_derivative_follows_from_what_it_derives() -> None:
+    text = """\
+model tracking
+state v = 0 {m/s}
+let r = 0.1*t {m}
+let s = v - der(r)
+let a = der(der(r + 2*t^3)) {m/s^2}
+der(v) = a - sgn(s)
+"""
+    assert misfits(text) == []
+    [(message, places)] = marked(text.replace("v - der(r)", "v - r"))
+    assert (message, places[:2]) == ("`m/s` and `m` cannot be added", ["r", "v"])
+    [(message, places)] = marked(text.replace("der(r)", "der(der(r*r))"))
+    assert (message, places[0]) == ("`m/s` and `m^2/s^2` cannot be added", "der(der(r*r))")
+
+
 def test_values_are_labeled_in_the_units_in_which_they_stand() -> None:
     text = HEAD + REST + "parameter d = 3 {mm}\nlet y = x + d {mm}\noutput e = y {mm}\n"
     found = inclusion(text + "force N = dio(x) {kN}\napproximate N: K = 1 {kN/m}\n")

@@ -8,7 +8,16 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from nsode.expr import TIME
-from nsode.ode import RATE_SUFFIX, Binding, LinearSolve, Placed, SetValuedTerm, System
+from nsode.ode import (
+    DOT_SUFFIX,
+    RATE_SUFFIX,
+    Binding,
+    LinearSolve,
+    Placed,
+    SetValuedTerm,
+    System,
+    defined,
+)
 
 _SMALL = (
     *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa"),
@@ -20,6 +29,7 @@ _CAPITAL = (
     "Omega",
 )
 _GREEK = frozenset({*_SMALL, *_CAPITAL})
+_DERIVED = (DOT_SUFFIX, RATE_SUFFIX)
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +51,8 @@ class Symbol:
     @property
     def dot(self) -> Symbol:
         """The symbol of its rate."""
-        return replace(self, base=rf"\dot{{{self.base}}}")
+        once = self.base.removeprefix(r"\dot")
+        return replace(self, base=rf"\dot{{{once}}}" if once == self.base else rf"\ddot{once}")
 
 
 def _join(subscripts: tuple[str, ...]) -> str:
@@ -122,8 +133,9 @@ def _attribute(name: str) -> Symbol:
 
 
 def _component(name: str) -> Symbol:
-    if name.endswith(RATE_SUFFIX):
-        return _component(name.removesuffix(RATE_SUFFIX)).dot
+    for suffix in _DERIVED:
+        if name.endswith(suffix):
+            return _component(name.removesuffix(suffix)).dot
     head, *components = re.split(r"\.|\[|\]\.?", name)
     symbol = word(head)
     return replace(symbol, subscripts=(*symbol.subscripts, *filter(None, components)))
@@ -134,8 +146,8 @@ def _attributes(system: System) -> Iterable[str]:
     yield from (p.name for p in system.parameters if p.constant_of is not None)
     yield from (item.name for item in getattr(system, "auxiliary", ()))
     for item in system.bindings:
-        if isinstance(item, Binding) and item.role == "part" and "." in item.name:
-            yield item.name
+        is_part = isinstance(item, Binding) and item.role == "part"
+        yield from (n for n in defined(item) if is_part and "." in n and not n.endswith(_DERIVED))
 
 
 def _names(system: System) -> Iterable[str]:

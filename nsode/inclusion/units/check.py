@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import reduce
 
 from nsode.diagnostics import Diagnostic
 from nsode.dimension import ONE, SECOND
@@ -17,6 +18,7 @@ from nsode.inclusion.units.quantity import CLOCK, UNKNOWN, Quantity, over, times
 from nsode.inclusion.units.values import check_value
 from nsode.inclusion.values import is_zero
 from nsode.ode import (
+    DOT_SUFFIX,
     Binding,
     DifferentialInclusion,
     LinearSolve,
@@ -117,8 +119,18 @@ class _Check:
             self._rate(self.states[item.name], item.value, item.span)
             return
         else:
-            quantity = self.inference.of(item.value)
+            quantity = self._part(item)
         self.inference.known[item.name] = UNKNOWN if quantity.flexible else quantity
+
+    def _part(self, item: Binding) -> Quantity:
+        """Return the unit of a part; that of a derivative follows from what it derives."""
+        found = self.inference.of(item.value)
+        name, *derived = item.name.split(DOT_SUFFIX)
+        unit = self.declared.of(name)
+        of = self.inference.known.get(name, UNKNOWN) if unit is None else unit.quantity
+        if not derived or of.rigid is None:
+            return found
+        return reduce(over, [_SECONDS] * len(derived), of)
 
     def _value(self, name: str, value: Expr) -> Quantity:
         """Check a value against the unit of its name; return the unit that counts."""
