@@ -73,6 +73,7 @@ CODES: dict[str, str] = {
     "NS409": "impacts not resolved",
     "NS410": "step not checked",
     "NS411": "start inside a contact",
+    "NS412": "friction that acts too late",
     # runs
     "NS501": "setting of a run out of range",
     "NS502": "run too large",

@@ -9,6 +9,7 @@ import numpy as np
 
 from nsode.analysis.elements import Friction, contacts, frictions
 from nsode.analysis.formulas import formulas
+from nsode.analysis.late import late
 from nsode.analysis.mass import feeding
 from nsode.analysis.minimality import coinciding, unread_states
 from nsode.analysis.outset import UNDEFINED, at_start, places, preload, unknown
@@ -91,6 +92,7 @@ def analyze(
         idle=_idle(scene, visited[1:]),
         diagnostics=(
             *feeding(scene, mass),
+            *late(scene, local),
             *_resonances(scene, sticking),
             *(unstable(inclusion, steps) or unresolved(scene, mass)),
         ),

@@ -9,6 +9,7 @@ from math import inf
 import numpy as np
 
 from nsode.analysis import looks
+from nsode.analysis.late import late
 from nsode.analysis.mass import feeding
 from nsode.analysis.outset import UNDEFINED, at_start, places, unknown
 from nsode.analysis.remarks import unresolved, unstable
@@ -34,7 +35,7 @@ class Foreseen:
     Attributes
     ----------
     diagnostics : tuple of Diagnostic
-        NS402, NS407, NS409.
+        NS402, NS407, NS409, NS412.
     limit : float, optional
         A step in seconds up to which the elements are stable, infinite where no step
         matters; None where it is not known.
@@ -51,7 +52,7 @@ class Foreseen:
 
 
 def warnings(inclusion: DifferentialInclusion) -> tuple[Diagnostic, ...]:
-    """Return what every compile should say: NS402, NS407, NS409.
+    """Return what every compile should say: NS402, NS407, NS409, NS412.
 
     Quick: it looks at the model's own method only, and at the sets only where a proven bound
     does not already allow the step. Large models are left out.
@@ -80,7 +81,7 @@ def foresee(inclusion: DifferentialInclusion, margin: float = 1.0) -> Foreseen:
     if begin is None:
         return Foreseen(unknown=UNDEFINED)
     local, mass, load = begin
-    found = tuple(feeding(scene, mass))
+    found = (*feeding(scene, mass), *late(scene, local))
     schemes: Mapping[str, Method] = {**REGISTRY, **SPLITTINGS}
     if step is None or method not in schemes:
         return Foreseen(found, inf)

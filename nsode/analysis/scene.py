@@ -10,11 +10,12 @@ from functools import cached_property
 from itertools import chain
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nsode.analysis.local import LAW, Constants, Element, Local
 from nsode.analysis.point import Matrix, Point, Vector, assemble, parameters, start
 from nsode.derivative import Jacobian, Row, linearize, time_derivatives
-from nsode.expr import TIME, Expr, names
+from nsode.expr import TIME, Expr, Number, names
 from nsode.ode import (
     Binding,
     Definition,
@@ -80,6 +81,14 @@ class Scene:
 
     def _linearized(self, rows: Sequence[Row | Rate]) -> Jacobian:
         return linearize(self.definitions, rows, {*self.states, *self.multipliers})
+
+    @cached_property
+    def acts_at_once(self) -> NDArray[np.bool_]:
+        """Which multiplier (column) may, at some state, act on the rate of which motion (row)."""
+        motion, lift = self._blocks(_marked(self.of_motions), Point(), self.multipliers)
+        _, force = self._blocks(_marked(self.of_rates), Point(), self.states)
+        acts: NDArray[np.bool_] = (motion @ force + lift) > 0
+        return acts
 
     @cached_property
     def start(self) -> Point:
@@ -223,6 +232,12 @@ class Scene:
 def reads(expr: Expr) -> set[str]:
     """Return the names that an expression reads."""
     return {name.id for name in names(expr)}
+
+
+def _marked(jacobian: Jacobian) -> Jacobian:
+    """Return the Jacobian with 1 in every place that holds an entry."""
+    entries = tuple(entry._replace(value=Number(1.0)) for entry in jacobian.entries)
+    return Jacobian((), entries)
 
 
 def _expressions(item: Definition) -> Iterable[Expr]:
