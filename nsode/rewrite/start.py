@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from nsode.diagnostics import Diagnostic, Label, ModelError
 from nsode.evaluate import evaluate
 from nsode.expr import TIME, Call, Expr, IndexRange, Name, Sum, children, names
-from nsode.ode import AugmentedODE, Binding, Rate, SetValuedTerm, State
+from nsode.ode import AugmentedODE, Binding, Placed, Rate, SetValuedTerm, State
 
 #: Families that read each other deeper than this, and sums longer, are not looked into.
 _DEPTH, _LENGTH = 50, 1000
@@ -20,6 +20,34 @@ _ROUNDING = 1e-12  # of the size of its terms: what a gap of zero may differ fro
 
 class _GiveUpError(Exception):
     """Finding out would cost too much, or wants what only a run brings."""
+
+
+@dataclass(frozen=True, slots=True)
+class Beginning:
+    """The time at which a run starts, and the states, inputs and parameters there.
+
+    ``chosen`` tells whether a person chose some of the states.
+    """
+
+    time: float
+    x: Sequence[float]
+    u: Sequence[float]
+    p: Sequence[float]
+    chosen: bool
+
+    def values(self, ode: AugmentedODE) -> Iterator[tuple[tuple[str, int | None], float]]:
+        """Yield each value with its name and its place in a family."""
+        yield (TIME, None), self.time
+        for items, vector in ((ode.states, self.x), (ode.inputs, self.u), (ode.parameters, self.p)):
+            yield from zip(_places(items), vector, strict=False)  # books follow the states
+
+
+def _places(items: Iterable[Placed]) -> Iterator[tuple[str, int | None]]:
+    for item in items:
+        if item.range is None:
+            yield item.name, None
+        else:
+            yield from ((item.name, at) for at in range(item.range.first, item.range.last + 1))
 
 
 def at_start(ode: AugmentedODE) -> tuple[Diagnostic, ...]:
@@ -49,15 +77,27 @@ def at_start(ode: AugmentedODE) -> tuple[Diagnostic, ...]:
     return tuple(found)
 
 
-def pressed_at_start(terms: Sequence[SetValuedTerm], ode: AugmentedODE) -> tuple[Diagnostic, ...]:
+def pressed_at_start(
+    terms: Sequence[SetValuedTerm], ode: AugmentedODE, run: Beginning | None = None
+) -> tuple[Diagnostic, ...]:
     """Return a warning for each contact that is closed at the start and stores energy there.
 
     Of a family, the element that is pressed in most is named.
+
+    Parameters
+    ----------
+    run
+        The start of a run, where it is not the model's.
     """
-    contacts = [term for term in terms if _is_loaded_spring(term)]
-    if not contacts or any(math.isnan(v) for p in ode.parameters for v in p.values):
+    loads = {state.name for state in ode.auxiliary}
+    contacts = [
+        term
+        for term in terms
+        if term.kind == "dio" and (f"{term.name}.e" in loads or not _may_rest(term, run))
+    ]
+    if not contacts or (run is None and _lacks_values(ode)):
         return ()
-    start = _Start.of(ode, missing=math.nan)
+    start = _Start.of(ode, missing=math.nan, run=run)
     found = (start.deepest(term) for term in contacts)
     return tuple(
         _pressed(term, *deepest)
@@ -66,8 +106,13 @@ def pressed_at_start(terms: Sequence[SetValuedTerm], ode: AugmentedODE) -> tuple
     )
 
 
-def _is_loaded_spring(term: SetValuedTerm) -> bool:
-    return term.kind == "dio" and not term.approximation.at_equilibrium
+def _may_rest(term: SetValuedTerm, run: Beginning | None) -> bool:
+    """Whether a contact without a state of its own, pressed in, may be at rest there."""
+    return term.approximation.at_equilibrium or (run is not None and run.chosen)
+
+
+def _lacks_values(ode: AugmentedODE) -> bool:
+    return any(math.isnan(value) for item in ode.parameters for value in item.values)
 
 
 def _pressed(term: SetValuedTerm, gap: float, at: int | None) -> Diagnostic:
@@ -84,7 +129,7 @@ def _pressed(term: SetValuedTerm, gap: float, at: int | None) -> Diagnostic:
 
 def _undefined_starts(ode: AugmentedODE, start: _Start) -> Iterator[Diagnostic]:
     """Yield an error for each state that the parameters give no value at the start."""
-    if any(math.isnan(value) for parameter in ode.parameters for value in parameter.values):
+    if _lacks_values(ode):
         return
     for state in ode.states:
         for indices in _ends(state):
@@ -142,7 +187,7 @@ class _Start:
     long: dict[int, bool] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, ode: AugmentedODE, missing: float) -> _Start:
+    def of(cls, ode: AugmentedODE, missing: float, run: Beginning | None = None) -> _Start:
         formulas: dict[str, list[tuple[Expr, IndexRange | None]]] = {}
         for state in ode.states:
             formulas[state.name] = [(state.initial, state.range)]
@@ -150,12 +195,12 @@ class _Start:
         for binding in bindings:
             formulas.setdefault(binding.name, []).append((binding.value, binding.range))
         start = cls(formulas, {parameter.name for parameter in ode.parameters})
+        own = [value for parameter in ode.parameters for value in parameter.values]
+        given = (missing if math.isnan(value) else value for value in own)
         start.known[TIME, None] = 0.0
-        for parameter in ode.parameters:
-            over = parameter.range
-            for k, value in enumerate(parameter.values):
-                at = None if over is None else over.first + k
-                start.known[parameter.name, at] = missing if math.isnan(value) else value
+        start.known |= zip(_places(ode.parameters), given, strict=True)
+        if run is not None:
+            start.known |= run.values(ode)
         for binding in bindings:  # in order, so that long chains need no recursion
             if binding.range is None:
                 try:
@@ -200,12 +245,19 @@ class _Start:
         for at in [None] if over is None else range(over.first, over.last + 1)[:_LOOKS]:
             indices = {} if over is None or at is None else {over.variable: at}
             try:
+                if self._is_held(term, at):
+                    continue
                 value = self.value(gap, indices)
                 if value < min(found[0], -_ROUNDING * self._size(gap, indices)):
                     found = value, at
             except _GiveUpError:
                 continue
         return found if found[0] < 0 else None
+
+    def _is_held(self, term: SetValuedTerm, at: int | None) -> bool:
+        """Whether a contact starts with a load, of its weight or of an earlier run."""
+        load = f"{term.name}.e"
+        return load in self.formulas and self.lookup(load, at) > 0
 
     def _size(self, expr: Expr, indices: dict[str, int]) -> float:
         """Return the size of what a value is the sum of, looking through one name."""

@@ -20,7 +20,7 @@ from nsode.simulate.machine import Vector
 from nsode.simulate.settings import Settings
 
 #: What the run says with its own parameters, and need not be said of the model's before it.
-TOLD = ("NS402", "NS407", "NS409", "NS412")
+TOLD = ("NS402", "NS407", "NS409", "NS411", "NS412")
 
 #: A step below this share of the limit needs no guard.
 MARGIN = 0.5

@@ -15,6 +15,7 @@ from nsode.diagnostics import Diagnostic, ModelError
 from nsode.integrators import REGISTRY
 from nsode.limits import DEFAULT_LIMITS, Limits
 from nsode.ode import AugmentedODE, DifferentialInclusion, Output, State, element_names, size
+from nsode.rewrite.start import Beginning, pressed_at_start
 from nsode.simulate import failure, parameters, solvers
 from nsode.simulate.compilers import overlooked
 from nsode.simulate.foresee import foreseen
@@ -115,9 +116,12 @@ def simulate(
     given = inputs(ode, signals or {}, settings)
     before = foreseen(inclusion, ode, settings, p)
     made = scene(inclusion, ode, settings.method, watched=manner.guard and before.doubtful)
-    _say([*remarks, *overlooked(), *slowly(made), *before.remarks], manner, ode)
     x0 = made.machine.initial(p if len(p) else np.zeros(1))
     parameters.states(ode, x0, start or {})
+    u0 = given.at(settings.start)
+    begin = Beginning(settings.start, x0.tolist(), u0.tolist(), p.tolist(), chosen=bool(start))
+    pressed = pressed_at_start(inclusion.terms, ode, begin)
+    _say([*remarks, *overlooked(), *slowly(made), *pressed, *before.remarks], manner, ode)
     if settings.method in SOLVERS:
         task = solvers.Task(ode, made.machine, settings, given, p)
         found = solvers.record(task, x0, manner.progress)

@@ -275,7 +275,8 @@ def test_e_follows_its_exact_flow_under_a_gap_that_holds(gap, start, flow, h):
     ids=["stick", "slip", "slip back"],
 )
 def test_a_follows_its_exact_flow_under_a_velocity_that_holds(slip, start, flow, h):
-    found = nsode.loads(HELD).simulate(h, h, method="verlet", x0={"s": slip, "F.a": start})
+    given, x0 = {"gap": 1e-3}, {"s": slip, "F.a": start}
+    found = nsode.loads(HELD).simulate(h, h, method="verlet", parameters=given, x0=x0)
     assert found["F.a"][-1] == pytest.approx(flow(h), rel=1e-11)
 
 
