@@ -248,6 +248,16 @@ def test_the_step_is_that_of_the_numpy_module(method):
     np.testing.assert_allclose(found, expected, rtol=4 * EPS, atol=0)
 
 
+@pytest.mark.parametrize("name", ["haptic_wall", "two_blocks_conveyor"])
+def test_steps_accumulate_in_one_function_as_they_do_in_compiled_c(name):
+    scene = nsode.load(MODELS / f"{name}.di")
+    model, h, n = scene.casadi(), scene.inclusion.run.step, 300
+    run = model.step.mapaccum("run", n, ["x"], ["x_next"])
+    found = dense(run(h * np.arange(n), h, model.x0, model.u0, model.p0)).T
+    expected = scene.simulate(n * h, h, method="rk4").x[1:]
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
+
+
 def test_a_method_without_a_tableau_is_refused():
     with pytest.raises(ValueError, match="no explicit Runge-Kutta method; there are rk4"):
         functions(oscillator(), "bdf")

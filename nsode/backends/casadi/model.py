@@ -24,7 +24,11 @@ class CasadiModel:
         ``rhs(t, x, u, p) -> dx`` and ``out(t, x, u, p) -> y``.
     step
         ``step(t, h, x, u, p) -> x_next``, one step of an explicit Runge-Kutta method.
-        Unlike the C it leaves tiny magnitudes as they are, so that it stays smooth.
+        Unlike the C it leaves tiny magnitudes as they are, so that it stays smooth. Many
+        steps in one function, the states after each of them in a column:
+        ``run = model.step.mapaccum("run", n, ["x"], ["x_next"])``, and
+        ``run(h*np.arange(n), h, model.x0, model.u0, model.p0)``; ``u`` and ``p`` may have a
+        column for each step.
     init
         ``init(u, p) -> x``, the states at the start.
     t, x, u, p, dx, y
