@@ -120,8 +120,9 @@ class SetValuedTerm:
 
     It stands among the bindings, where its argument and factor are known, and
     defines ``multiplier``: one name for each of the ``r = len(argument)`` components.
-    ``factor`` is chi as the author wrote it, None for dio. ``dimensions`` are those of the
-    multiplier and of the argument, as far as the units of the model tell.
+    ``factor`` is chi as the author wrote it, None for dio; ``written`` is where, left and right
+    of sgn. ``dimensions`` are those of the multiplier and of the argument, as far as the units
+    of the model tell.
     """
 
     name: str
@@ -132,6 +133,7 @@ class SetValuedTerm:
     range: IndexRange | None = None
     approximation: Approximation = Approximation()
     dimensions: tuple[Dimension | None, Dimension | None] = (None, None)
+    written: tuple[Span, ...] = field(default=(), compare=False, kw_only=True)
     span: Span = field(default=NOWHERE, compare=False, kw_only=True)
 
     @property

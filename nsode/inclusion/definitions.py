@@ -164,6 +164,7 @@ class Definitions:
                 factor,
                 tuple(raw.multiplier + suffix for suffix in suffixes(of)),
                 over,
+                written=raw.written,
                 span=raw.span,
             )
         )

@@ -12,7 +12,7 @@ from nsode.inclusion.families import Axes, cases
 from nsode.inclusion.report import Report
 from nsode.inclusion.sharing import Numbering
 from nsode.inclusion.signs import Guard, Proof, Prover
-from nsode.inclusion.unproved import unproved
+from nsode.inclusion.unproved import unproved, written
 from nsode.ode import Binding, Check, DifferentialInclusion, Parameter, SetValuedTerm
 from nsode.source import Source
 
@@ -113,19 +113,21 @@ def prove_factor(
     parts = cases(term.factor, term.range)
     guards = prover.prove_all(parts, ">=")
     if guards is not None:
-        return term, _checks(prover, term, term.factor, guards)
+        return term, _checks(prover, term, term.factor, guards, source)
     guards = prover.prove_all(parts, "<=")
     if guards is None or any(guard.goal in {"<=", "<"} for guard in guards):
         raise unproved(prover, term, parts, source)
     mirrored = replace(
         term, factor=negate(term.factor), argument=tuple(negate(part) for part in term.argument)
     )
-    return mirrored, _checks(prover, term, negate(term.factor), guards)
+    return mirrored, _checks(prover, term, negate(term.factor), guards, source)
 
 
-def _checks(prover: Prover, term: SetValuedTerm, factor: Expr, guards: Proof) -> list[Check]:
+def _checks(
+    prover: Prover, term: SetValuedTerm, factor: Expr, guards: Proof, source: Source
+) -> list[Check]:
     watched = Call(">=", (factor, Number(0.0)), span=factor.span)
-    reason = f"the factor of `{term.name}`"
+    reason = f"the factor `{written(term, source)}` of `{term.name}`"
     checks = [Check("factor", watched, term.range, reason, span=factor.span)]
     for guard in sorted(guards, key=repr):
         if guard.goal == ">=" and guard._replace(goal=">") in guards:
@@ -142,5 +144,5 @@ def _checked(
         value = replace(value, at=Index(family.variable))
         over = IndexRange(family.variable, *guard.elements)
     condition = Call(guard.goal, (value, Number(0.0)), span=value.span)
-    why = f"{reason} is nonnegative only then"
+    why = f"{reason} may then be negative"
     return Check("bound", condition, over, why, span=term.span)

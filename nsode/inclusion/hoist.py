@@ -38,6 +38,7 @@ class RawTerm:
     range: RangeSyntax | None
     span: Span
     inline: bool
+    written: tuple[Span, ...] = ()
 
 
 @dataclass(slots=True)
@@ -160,13 +161,18 @@ class _Walk:
         return [Item(operator, self.visit(operand)) for operator, operand in items]
 
     def _sgn(self, found: Friction) -> Expr:
-        place = self._take("sgn", found.sgn, found.chi, found.span)
+        place = self._take("sgn", found.sgn, found.chi, found.span, found.written)
         for part in found.taken:
             place = replace(part, base=place)
         return place if found.sign > 0 else Call("neg", (place,), span=found.span)
 
     def _take(
-        self, kind: Literal["dio", "sgn"], call: Call, factor: Expr | None, span: Span
+        self,
+        kind: Literal["dio", "sgn"],
+        call: Call,
+        factor: Expr | None,
+        span: Span,
+        written: tuple[Span, ...] = (),
     ) -> Expr:
         """Keep a term; return what takes its place."""
         check_call(call)
@@ -181,7 +187,7 @@ class _Walk:
         if self.force is not None:
             name, multiplier = self.force.text, f"{self.force.text}.lambda"
         inline = self.force is None
-        term = RawTerm(name, kind, argument, factor, multiplier, self.range, span, inline)
+        term = RawTerm(name, kind, argument, factor, multiplier, self.range, span, inline, written)
         self.terms.append(term) if inline else self._name(term)
         return _place(term)
 

@@ -25,12 +25,13 @@ class Item(NamedTuple):
 class Friction(NamedTuple):
     """``chi*sgn(theta)`` in a product.
 
-    ``taken`` are components taken of it, ``sign`` what its signs amount to, ``behind`` the
-    factors that are no part of chi.
+    ``written`` is where chi stands, left and right of sgn; ``taken`` are components taken of
+    it, ``sign`` what its signs amount to, ``behind`` the factors that are no part of chi.
     """
 
     sgn: Call
     chi: Expr
+    written: tuple[Span, ...]
     taken: Sequence[Component | Subscript]
     sign: int
     behind: Sequence[Item]
@@ -78,7 +79,16 @@ def _around(
         sign *= negative
     chi = fold(factors) if factors else Number(1.0, span=sgn.span)
     span = items[0].operand.span.to(items[end - 1].operand.span)
-    return Friction(sgn, chi, taken, sign, items[end:], span)
+    written = tuple(_place(part) for part in (items[:at], items[at + 1 : end]) if part)
+    return Friction(sgn, chi, written, taken, sign, items[end:], span)
+
+
+def _place(factors: Sequence[Item]) -> Span:
+    """Return where factors stand, without the signs in front of them."""
+    first = factors[0].operand
+    while isinstance(first, Call) and first.function == "neg":
+        first = first.args[0]
+    return first.span.to(factors[-1].operand.span)
 
 
 def is_sgn(expr: Expr) -> bool:

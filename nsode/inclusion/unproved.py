@@ -22,22 +22,30 @@ def unproved(
     assert factor is not None
     case = next(case for case in parts if prover.prove(case.expr, ">=", case.over) is None)
     culprit = _culprit(prover, case)
-    shown = source.on_one_line(factor.span) or "1"
     argument = source.on_one_line(term.argument[0].span.to(term.argument[-1].span))
-    labels = [Label(factor.span, "this factor may change sign")]
-    if not factor.span.start <= culprit.part.span.start < factor.span.end:
+    shown = f"the factor `{written(term, source)}` of `sgn({argument})`"
+    start = culprit.part.span.start
+    inside = [span for span in term.written if span.start <= start < span.end]
+    whole = term.written[0] if len(term.written) == 1 else term.span
+    labels = [Label(next(iter(inside), whole), "this factor may change sign")]
+    if not inside:
         labels.append(Label(culprit.part.span, "because of this"))
     return ModelError(
         [
             Diagnostic(
                 "NS201",
-                f"cannot prove that the factor `{shown}` of `sgn({argument})` is nonnegative",
+                f"cannot prove that {shown} is nonnegative",
                 tuple(labels),
                 notes=(_reason(prover, culprit, source),),
                 help=_way_out(prover, culprit, source),
             )
         ]
     )
+
+
+def written(term: SetValuedTerm, source: Source) -> str:
+    """Return the factor of a term as a person wrote it, without the sgn that it may enclose."""
+    return "*".join(map(source.on_one_line, term.written)) or "1"
 
 
 class _Culprit(NamedTuple):

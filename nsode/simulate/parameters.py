@@ -201,6 +201,8 @@ def _broken(check: Check, at: Sample, ode: AugmentedODE, values: _Values) -> Dia
     why = check.reason
     if check.kind == "assume":
         why = f"`{text}` is assumed"
+    elif check.kind == "factor":
+        why += " is negative"
     elif why == "declared":
         why = f"it is declared `{text}`"
     return Diagnostic(

@@ -312,6 +312,17 @@ def test_the_bound_of_an_input_is_watched():
     assert refusal.value.trajectory.t[-1] == pytest.approx(0.5, abs=2e-3)
 
 
+def test_the_factor_that_may_turn_negative_is_shown():
+    model = nsode.loads(
+        "model m\nparameter phi = 0.3\nparameter a = 0.5\nstate v = 1\nlet mu = cos(phi) - a\n"
+        "force F = 2*sgn(v)*mu\nder(v) = -F\napproximate F: K = 1e3, beta = 4e-2\n"
+    )
+    with pytest.raises(ModelError, match="with `phi` = 2") as refusal:
+        model.simulate(1, 1e-3, parameters={"phi": 2})
+    assert codes(refusal) == ["NS307"]
+    assert "the factor `2*mu` of `F` may then be negative" in str(refusal.value)
+
+
 def test_an_element_that_breaks_a_proof_is_named_once():
     model = nsode.loads(
         "model m\nparameter F0[i in 1..3] = i\nstate v[i in 2..3] = 1\n"
