@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from nsode.analysis.steps import StableStep
 
 _SHOWN = 12  # multipliers whose W is printed
+_WIDTH = 100  # characters of a line, beyond which W stands in numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,9 +98,19 @@ def _mass(found: Analysis) -> Table:
     )
     if len(mass.names) > _SHOWN:
         return Table(f"{title}: {len(mass.names)} multipliers", (), (), remarks)
-    cells = mass.formulas or tuple(tuple(map(number, row)) for row in mass.matrix)
-    rows = tuple((name, *row) for name, row in zip(mass.names, cells, strict=True))
-    return Table(title, ("", *mass.names) if rows else (), rows, remarks)
+    numbers = tuple(tuple(map(number, row)) for row in mass.matrix)
+    table = _square(title, mass.names, mass.formulas or numbers, remarks)
+    if max(map(len, table.text())) > _WIDTH and mass.formulas is not None:
+        told = "its formulas are long: `--format json` has them, as does `.mass.formulas`"
+        table = _square(title, mass.names, numbers, (*remarks, told))
+    return table
+
+
+def _square(
+    title: str, names: Sequence[str], cells: Iterable[tuple[str, ...]], remarks: tuple[str, ...]
+) -> Table:
+    rows = tuple((name, *row) for name, row in zip(names, cells, strict=True))
+    return Table(title, ("", *names) if rows else (), rows, remarks)
 
 
 def _steps(found: Analysis) -> Table:

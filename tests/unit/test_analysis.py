@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 from contextlib import suppress
 from dataclasses import replace
 
@@ -74,6 +75,35 @@ def test_small_scenes_show_it_in_symbols():
     found = of_text(BY_NAME["rolling_sphere"].read_text())
     assert found.mass.formulas == (("1/M", "0", "0"), ("0", "7/(2*M)", "0"), ("0", "0", "7/(2*M)"))
     assert not found.mass.varies
+
+
+TILTED = """model tilted
+parameter M = 1
+parameter J = 0.4
+parameter b = 0.5
+parameter h = 1
+state y = 1.1
+state phi = 0.1
+state v = 0
+state w = 0
+force L = dio(y - b*sin(phi) - h*cos(phi))
+force R = dio(y + b*sin(phi) - h*cos(phi))
+der(y) = v
+der(phi) = w
+M*der(v) = L + R - M*9.81
+J*der(w) = L*(h*sin(phi) - b*cos(phi)) + R*(h*sin(phi) + b*cos(phi))
+approximate default dio: K = 1e6, beta = 2e-3, alpha = 1e-3
+"""
+
+
+def test_formulas_wider_than_a_terminal_stand_in_the_json_and_numbers_in_their_place():
+    found = of_text(TILTED)
+    lines = str(found).splitlines()
+    assert max(map(len, lines)) <= 100
+    lever = math.sin(0.1) - 0.5 * math.cos(0.1)
+    [row] = (line.split() for line in lines if line.split()[:1] == ["L"] and len(line.split()) == 3)
+    assert float(row[1]) == pytest.approx(1 / 1 + lever**2 / 0.4, rel=1e-3)
+    assert "cos(phi)" in found.as_json()["effective_mass"]["formulas"][0][0]
 
 
 def test_a_mass_matrix_makes_it_depend_on_the_state():
