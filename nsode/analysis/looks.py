@@ -23,6 +23,7 @@ from nsode.rewrite import rewrite
 
 _ROUNDS = 5  # of Newton's method toward gaps that are not affine in the state
 _FASTEST = 64  # modes of a state whose limits are computed
+_RESOLVED = 1e-12  # of the terms of a gap: a depth that rounding cannot take for open
 _ROUNDING = 1e-9  # of a mode's magnitude: what is left of a real part of zero
 
 _Modes = tuple[tuple[str, str], ...]
@@ -62,7 +63,8 @@ def _states(
     """Yield states with what the elements do there, and how deep the contacts are pressed."""
     contacts = [element for element in scene.elements if element.is_contact]
     frictions = [element for element in scene.elements if not element.is_contact]
-    depths = {e.name: _depth(scene, e, load[e.rows[0]]) for e in contacts}
+    seen = _RESOLVED * (np.abs(local.slope) @ np.abs(scene.start_state) + np.abs(local.argument))
+    depths = {e.name: max(_depth(scene, e, load[e.rows[0]]), seen[e.rows[0]]) for e in contacts}
     closed = {e.rows[0]: -depths[e.name] for e in contacts}
     resting = closed | {row: 0.0 for e in frictions for row in e.rows}
     pressed = tuple((e.name, "contact") for e in contacts)

@@ -10,12 +10,13 @@ import numpy as np
 
 from nsode.analysis import looks
 from nsode.analysis.late import late
+from nsode.analysis.local import Local
 from nsode.analysis.mass import feeding
 from nsode.analysis.outset import UNDEFINED, at_start, places, unknown
 from nsode.analysis.remarks import unresolved, unstable
 from nsode.analysis.scene import Scene
 from nsode.analysis.stability import bound, half_disc
-from nsode.analysis.steps import Method, reachable, stable_steps
+from nsode.analysis.steps import Method, StableStep, reachable, stable_steps
 from nsode.diagnostics import Diagnostic
 from nsode.integrators import REGISTRY
 from nsode.integrators.splittings import SPLITTINGS, Verlet
@@ -24,6 +25,8 @@ from nsode.ode import DifferentialInclusion
 #: States and multipliers beyond which a step is not checked on every compile; a splitting
 #: wants the eigenvalues of each set at each of many steps.
 LARGE, LARGE_FOR_SPLITTINGS = 300, 60
+#: What no explicit method takes, in steps of RK4.
+_FARTHEST = 1e3
 #: Active sets beyond which a compile searches among them instead.
 FEW_SETS = 256
 
@@ -60,6 +63,21 @@ def warnings(inclusion: DifferentialInclusion) -> tuple[Diagnostic, ...]:
     return foresee(inclusion).diagnostics
 
 
+def _looked(
+    scene: Scene, local: Local, load: list[float], scheme: Method, step: float
+) -> StableStep | None:
+    """Return the limit at a few states: of the method, or of RK4 where that is far exceeded.
+
+    A splitting has none here, and Euler's leaves out what nothing damps.
+    """
+    usual = REGISTRY["rk4"]
+    limit = None if isinstance(scheme, Verlet) else looks.limit(scene, local, load, scheme)
+    if scheme == usual or (limit is not None and step > limit.found):
+        return limit
+    other = looks.limit(scene, local, load, usual)
+    return limit if other is None or step <= _FARTHEST * other.found else other
+
+
 @np.errstate(all="ignore")
 def foresee(inclusion: DifferentialInclusion, margin: float = 1.0) -> Foreseen:
     """Return what is known of the model's own step with its own method.
@@ -87,7 +105,7 @@ def foresee(inclusion: DifferentialInclusion, margin: float = 1.0) -> Foreseen:
         return Foreseen(found, inf)
     scheme, why = schemes[method], unknown(scene, local)
     if why is not None:
-        looked = None if isinstance(scheme, Verlet) else looks.limit(scene, local, load, scheme)
+        looked = _looked(scene, local, load, scheme, step)
         if looked is None:
             return Foreseen(found, unknown=why)
         said = unstable(inclusion, {method: looked})

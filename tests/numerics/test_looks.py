@@ -90,6 +90,37 @@ def test_lugre_that_slides_at_a_speed_takes_the_step_that_its_law_says():
     assert limit(model_of("lugre that slides")) == pytest.approx(REAL * 3 / (1e4 * 5), rel=6e-3)
 
 
+DROPPED = """model dropped
+state p = 1
+state v = 0
+force N = dio(p)
+der(p) = v
+2*der(v) = N - 20
+approximate N {law}
+simulate 1 step 1e-3
+"""
+
+
+@pytest.mark.parametrize("K", [1e61, 1e150, 1e300])
+@pytest.mark.parametrize(
+    ("law", "stiffer"), [(": beta = 9e-3, alpha = 1e-3", 9), ("with kelvin_voigt: B = 1", 1)]
+)
+def test_a_step_beyond_any_that_a_huge_stiffness_leaves_is_told_of(K, law, stiffer):
+    found = nsode.loads(DROPPED.replace("{law}", f"{law}, K = {K}"))
+    [warning] = [d for d in found.diagnostics if d.code == "NS407"]
+    told = float(warning.message.split()[-2])
+    # the Zener solid is K*beta/alpha when fast; RK4 holds an undamped mode up to 2 sqrt(2)
+    assert told == pytest.approx(2 * np.sqrt(2) / np.sqrt(K * stiffer / 2), rel=1e-2)
+
+
+@pytest.mark.parametrize("method", ["heun", "euler", "verlet"])
+def test_so_it_is_where_the_method_itself_tells_nothing_of_it(method):
+    law = f": beta = 9e-3, alpha = 1e-3, K = 1e150\nsimulate 1 step 1e-3 method {method}"
+    text = DROPPED.replace("simulate 1 step 1e-3\n", "").replace("{law}", law)
+    [warning] = [d for d in nsode.loads(text).diagnostics if d.code == "NS407"]
+    assert "the step 0.001 s is beyond what rk4 can take" in warning.message
+
+
 # At rest on its contact, or stuck: a deviation small enough to stay there
 SMALL = {
     "kelvin_voigt": {"p": -4e-3 - 1e-9},
