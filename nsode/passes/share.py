@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from math import copysign
 from typing import NamedTuple
 
 from nsode.expr import (
@@ -18,7 +19,6 @@ from nsode.expr import (
     Sum,
     children,
     rebuild,
-    walk,
 )
 from nsode.ode import Binding, Definition, defined, expressions
 from nsode.passes.expressions import map_definition
@@ -28,11 +28,40 @@ from nsode.passes.prune import definition_reads
 _TOTAL = frozenset({"+", "neg", "*", "abs", "min", "max", "norm", "sin", "cos", "atan", "tanh"})
 
 
+#: What functions cost, in additions, where that is not two; a sign costs nothing.
+_PRICES = {"neg": 0, "+": 1, "*": 1, "abs": 1}
+#: Definitions and values beyond which all stay as they are: from text to code would take half
+#: as long again, for what an optimizing compiler finds too.
+_MOST = 3000
+_NONE: frozenset[str] = frozenset()
+
+
 class Value(NamedTuple):
     """An expression, for each index of a range where it has one."""
 
     expr: Expr
     range: IndexRange | None = None
+
+
+class _Facts(NamedTuple):
+    """What is known of an expression: ``number`` is that of all which are equal to it.
+
+    ``variables`` are the indices that it reads. It may fail where it may have no value in a
+    branch that is not taken; an element may lie outside of its family there.
+    """
+
+    number: int
+    variables: frozenset[str]
+    price: int
+    reads: bool
+    may_fail: bool
+
+
+class _Home(NamedTuple):
+    """Where a value is the same: its number, and the range that it depends on."""
+
+    number: int
+    range: IndexRange | None
 
 
 def share(
@@ -42,27 +71,100 @@ def share(
 
     What ``definitions`` and ``values`` have in common over one range gets names; ``given``
     stays as it is. Nothing is reordered inside an expression, so every value stays what it
-    was to the last bit.
+    was to the last bit. Scenes with very many definitions are left to the compiler.
     """
+    if len(definitions) + len(values) > _MOST:
+        return [*given, *definitions], [value.expr for value in values]
     roots = [Value(expr, item.range) for item in definitions for expr in expressions(item)]
-    sharing = _Sharing(_common([*roots, *values]))
+    known = _Known()
+    sharing = _Sharing(known, _common([*roots, *values], known))
     changed = [sharing.define(item) for item in definitions]
     results = [sharing.change(*value) for value in values]
     return _in_order([*given, *changed], sharing.made), results
 
 
+class _Known:
+    """Facts about expressions, each found once, however large it is and often it stands."""
+
+    def __init__(self) -> None:
+        self._facts: dict[int, tuple[_Facts, Expr]] = {}  # an id lasts as long as what has it
+        self._leaves: dict[tuple[object, ...], _Facts] = {}
+        self._numbers: dict[tuple[object, ...], int] = {}
+
+    def of(self, expr: Expr) -> _Facts:
+        """Return what is known of an expression."""
+        if isinstance(expr, Name | Number | Index):
+            return self._leaf(expr)
+        found = self._facts.get(id(expr))
+        if found is None:
+            found = self._facts[id(expr)] = self._compound(expr), expr
+        return found[0]
+
+    def home(self, expr: Expr, over: IndexRange | None) -> _Home:
+        """Return where an expression over a range is the same."""
+        facts = self.of(expr)
+        return _Home(facts.number, over if facts.variables else None)
+
+    def _leaf(self, expr: Name | Number | Index) -> _Facts:
+        at: Index | None = None
+        key: tuple[object, ...]
+        match expr:
+            case Name(id, at):
+                key = id, at
+            case Number(value):
+                key = value, copysign(1.0, value)
+            case Index():
+                key, at = (expr,), expr
+        found = self._leaves.get(key)
+        if found is None:
+            read = frozenset({at.variable} if at is not None and at.variable else ())
+            is_name = isinstance(expr, Name)
+            facts = _Facts(self._number(key), read, 0, is_name, is_name and at is not None)
+            found = self._leaves[key] = facts
+        return found
+
+    def _compound(self, expr: Expr) -> _Facts:
+        parts = list(map(self.of, children(expr)))
+        match expr:
+            case Call(function, args):
+                own: object = function
+                price = (
+                    0 if all(isinstance(arg, Number) for arg in args) else _PRICES.get(function, 2)
+                )
+            case If():
+                own, price = If, 0
+            case Sum(over):
+                own, price = over, 0
+            case _:
+                raise NotImplementedError(f"no number for {type(expr).__name__}")
+        may_fail = isinstance(expr, Call) and expr.function not in _TOTAL
+        variables, reads = _NONE, False
+        for part in parts:
+            price += part.price
+            reads = reads or part.reads
+            may_fail = may_fail or part.may_fail
+            if part.variables:
+                variables |= part.variables
+        number = self._number((own, *[part.number for part in parts]))
+        return _Facts(number, variables, price, reads, may_fail)
+
+    def _number(self, key: tuple[object, ...]) -> int:
+        return self._numbers.setdefault(key, len(self._numbers))
+
+
 class _Sharing:
     """Names for common expressions."""
 
-    def __init__(self, common: frozenset[Value]) -> None:
+    def __init__(self, known: _Known, common: frozenset[_Home]) -> None:
         self.made: list[Binding] = []
+        self._known = known
         self._common = common
-        self._names: dict[Value, Name] = {}
+        self._names: dict[_Home, Name] = {}
 
     def define(self, item: Definition) -> Definition:
         """Return a definition that reads the names; a common one lends its own."""
         if isinstance(item, Binding):
-            whole = _at_home(item.value, item.range)
+            whole = self._known.home(item.value, item.range)
             if whole in self._common and whole not in self._names and whole.range == item.range:
                 self._names[whole] = _element(item.name, item.range)
                 return map_definition(item, lambda expr: self._inside(expr, item.range))
@@ -72,7 +174,7 @@ class _Sharing:
         """Return an expression that reads the names."""
         if not isinstance(expr, Call | If | Sum):
             return expr
-        home = _at_home(expr, over)
+        home = self._known.home(expr, over)
         if home not in self._common:
             return self._inside(expr, over)
         if home not in self._names:
@@ -97,59 +199,48 @@ def _in_order(definitions: Sequence[Definition], made: Sequence[Binding]) -> lis
     return [item for _, _, item in sorted(ranked, key=lambda entry: entry[:2])]
 
 
-def _common(roots: Sequence[Value]) -> frozenset[Value]:
-    """Return the expressions that are worth a name."""
-    uses: defaultdict[Value, list[bool]] = defaultdict(list)  # whether each is in a branch
-    stack = [(root, False) for root in roots]
+def _common(roots: Sequence[Value], known: _Known) -> frozenset[_Home]:
+    """Return where expressions are the same that are worth a name."""
+    uses: defaultdict[_Home, list[bool]] = defaultdict(list)  # whether each is in a branch
+    facts: dict[int, _Facts] = {}
+    stack = [(expr, over, False) for expr, over in roots]
     while stack:
-        (expr, over), guarded = stack.pop()
+        expr, over, guarded = stack.pop()
         if _may_have_a_name(expr):
-            home = _at_home(expr, over)
-            uses[home].append(guarded)
-            if len(uses[home]) > 1 and _can_stand(home):
-                continue
+            found, home = known.of(expr), known.home(expr, over)
+            if _can_stand(found, home):
+                facts[home.number] = found
+                uses[home].append(guarded)
+                if len(uses[home]) > 1:
+                    continue
         inner = None if isinstance(expr, Sum) else over
-        stack += [(Value(part, inner), guarded or dead) for part, dead in _parts(expr)]
+        for part, dead in _parts(expr):
+            if isinstance(part, Call | If | Sum):
+                stack.append((part, inner, guarded or dead))
     return frozenset(
-        value
-        for value, guards in uses.items()
+        home
+        for home, guards in uses.items()
         if len(guards) > 1
-        and _can_stand(value)
-        and _saves(value.expr, len(guards))
-        and not (all(guards) and _fails(value.expr))
+        and _saves(facts[home.number], len(guards))
+        and not (all(guards) and facts[home.number].may_fail)
     )
 
 
-def _parts(expr: Expr) -> Iterator[tuple[Expr, bool]]:
-    """Yield what stands inside an expression, and whether it may be left uncomputed."""
+def _can_stand(facts: _Facts, home: _Home) -> bool:
+    return not facts.variables or (
+        home.range is not None and facts.variables == {home.range.variable}
+    )
+
+
+def _parts(expr: Expr) -> list[tuple[Expr, bool]]:
+    """Return what stands inside an expression, and whether it may be left uncomputed."""
     match expr:
         case If(condition, then, otherwise):
-            yield from ((condition, False), (then, True), (otherwise, True))
+            return [(condition, False), (then, True), (otherwise, True)]
         case Call("and" | "or", (first, *further)):
-            yield first, False
-            yield from ((part, True) for part in further)
+            return [(first, False), *((part, True) for part in further)]
         case _:
-            yield from ((part, False) for part in children(expr))
-
-
-def _at_home(expr: Expr, over: IndexRange | None) -> Value:
-    """Return an expression with the range that it depends on."""
-    return Value(expr, over if over is not None and any(_indices(expr)) else None)
-
-
-def _indices(expr: Expr) -> Iterator[str]:
-    """Yield the index variables that an expression reads."""
-    for node in walk(expr):
-        match node:
-            case Name(_, Index(str() as variable)) | Index(str() as variable):
-                yield variable
-            case _:
-                pass
-
-
-def _can_stand(value: Value) -> bool:
-    own = None if value.range is None else value.range.variable
-    return all(variable == own for variable in _indices(value.expr))
+            return [(part, False) for part in children(expr)]
 
 
 def _element(name: str, over: IndexRange | None) -> Name:
@@ -164,30 +255,6 @@ def _may_have_a_name(expr: Expr) -> bool:
             return isinstance(expr, If)
 
 
-def _saves(expr: Expr, count: int) -> bool:
+def _saves(facts: _Facts, count: int) -> bool:
     """Whether a name saves operations, and more of them than it costs to read."""
-    if not any(isinstance(node, Name) for node in walk(expr)):
-        return False
-    return sum(map(_price, walk(expr))) * (count - 1) > 1
-
-
-def _price(node: Expr) -> int:
-    match node:
-        case Call("neg", _):
-            return 0
-        case Call(function, args) if not all(isinstance(arg, Number) for arg in args):
-            return 1 if function in ("+", "*", "abs") else 2
-        case _:
-            return 0
-
-
-def _fails(expr: Expr) -> bool:
-    """Whether an expression may have no value in a branch that is not taken.
-
-    An element may lie outside of its family there.
-    """
-    return any(
-        (isinstance(node, Call) and node.function not in _TOTAL)
-        or (isinstance(node, Name) and node.at is not None)
-        for node in walk(expr)
-    )
+    return facts.reads and facts.price * (count - 1) > 1

@@ -100,3 +100,8 @@ def test_no_jacobian_of_a_model_computes_a_norm_twice(path):
     nodes += [node for piece in found.pieces for node in walk(piece.value)]
     norms = [node for node in nodes if getattr(node, "function", None) == "norm"]
     assert len(norms) == len(set(norms))
+
+
+def test_zeros_of_either_sign_are_two_numbers():
+    one, other = (call("*", call("+", A, B), Number(zero)) for zero in (0.0, -0.0))
+    assert shared(one, other) == ([], [one, other])
