@@ -77,11 +77,24 @@ def _unfit(
     name = declarator.name.text
     if over is None:
         message = f"`{name}` is {describe(declared)}, but its value is {describe(found)}"
-        way_out = "give one value for each component, for example `[0, 0, 0]`"
+        way_out = _repair(name, declared, found)
     else:
         message = f"each element of `{name}` is {describe(declared)}, not {describe(found)}"
         way_out = f"give a formula for one element, or a list of all {len(over)}"
     return refuse("NS105", message, declarator.span, help=way_out)
+
+
+def _repair(name: str, declared: Shape, found: Shape) -> str:
+    match declared, found:
+        case (), (r,):
+            return f"declare `{name}[{r}]`, or give one number"
+        case (), _:
+            return "give one number"
+    return f"give one value for each component, for example `{_example(declared)}`"
+
+
+def _example(of: Shape) -> str:
+    return f"[{', '.join([_example(of[1:])] * of[0])}]" if of else "0"
 
 
 def _choose(items: Sequence[Expr], over: IndexRange) -> Expr:

@@ -75,6 +75,19 @@ def test_a_misspelt_name_gets_a_suggestion() -> None:
     assert found.help == "did you mean `stiffness`?"
 
 
+@pytest.mark.parametrize(
+    ("line", "way_out"),
+    [
+        ("state q[2] = 1", "give one value for each component, for example `[0, 0]`"),
+        ("state q = [1, 2, 3]", "declare `q[3]`, or give one number"),
+        ("state q = [[1, 2], [3, 4]]", "give one number"),
+    ],
+)
+def test_a_value_of_another_shape_gets_a_way_out_that_fits(line: str, way_out: str) -> None:
+    [found] = errors(line, "der(q) = -q")
+    assert (found.code, found.help) == ("NS105", way_out)
+
+
 def test_a_misspelt_function_gets_a_suggestion() -> None:
     [found] = errors(*HEAD, "der(v) = sqt(p)")
     assert found.code == "NS104"
