@@ -62,6 +62,21 @@ def test_what_draws_no_warning_comes_to_rest(argument, damping):
     assert last_second(model.simulate()) < 1e-9
 
 
+def test_super_twisting_whose_other_sgn_holds_the_same_argument_rests_unwarned():
+    model = nsode.loads(
+        """model supertwisting
+state x = 1
+state z = 0
+der(x) = z - 1.5*sqrt(abs(x))*sgn(x)
+der(z) = -1.1*sgn(x)
+approximate default sgn: K = 1e6, beta = 1e-2
+simulate 20 step 2e-5
+"""
+    )
+    assert not warned(model)
+    assert last_second(model.simulate()) < 1e-9
+
+
 @pytest.mark.parametrize("start", [0.0, 1.0])
 def test_a_sgn_that_acts_on_nothing_or_not_at_once_at_the_start_only_draws_none(start):
     model = nsode.loads(
