@@ -64,11 +64,12 @@ class FunctionsOfTime:
     def _mover(self, expr: Expr) -> Name | None:
         """Return what a value rests on that is neither time nor a parameter."""
 
-        def below(key: str) -> list[str]:
-            return [n.id for n in names(self.bindings[key].value) if n.id in self.bindings]
+        def reads(value: Expr) -> list[str]:
+            return [name.id for name in names(value) if name.id in self.bindings]
 
-        wanted = [name.id for name in names(expr) if name.id in self.bindings]
-        for key in deepest_first(wanted, below, self._movers):
+        for key in deepest_first(
+            reads(expr), lambda k: reads(self.bindings[k].value), self._movers
+        ):
             self._movers[key] = self._first_mover(self.bindings[key].value)
             self._motion.define(self.bindings[key])
         return self._first_mover(expr)
