@@ -21,7 +21,15 @@ def constants(explanation: Explanation) -> dict[tuple[Constant, ...], list[str]]
     groups: dict[tuple[Constant, ...], list[str]] = {}
     for step in explanation.steps:
         own = [p for p in explanation.ode.parameters if p.constant_of == step.term.name]
-        found = tuple(Constant(p.name.rpartition(".")[2], p.values[0], p.unit or "") for p in own)
+        found = tuple(Constant(_short(p.name), p.values[0], _shown(p.unit)) for p in own)
         if found:
             groups.setdefault(found, []).append(step.term.name)
     return groups
+
+
+def _short(name: str) -> str:
+    return name.rpartition(".")[2]
+
+
+def _shown(unit: str | None) -> str:
+    return unit if unit is not None and unit != "1" else ""

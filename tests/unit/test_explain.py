@@ -159,6 +159,14 @@ def test_another_law_is_shown_as_what_it_is():
     assert "(18a)" not in found.markdown()
 
 
+def test_a_constant_without_unit_stands_alone():
+    law = "approximate N with hunt_crossley: K = 1e5, c = 0.2\n"
+    text = of(
+        OTHER_LAWS.replace("approximate N with clipped_kelvin_voigt: K = 1e5, B = 100\n", law)
+    )
+    assert re.search(r"N: .*n = 1(,|$)", text.text(), re.MULTILINE)
+
+
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 def test_a_notebook_gets_text_and_markdown(path):
     loaded = nsode.load(path)
