@@ -82,15 +82,15 @@ class _Symbols:
     def __init__(self, scene: Scene, symbols: Mapping[str, Any]) -> None:
         self.scene = scene
         self.known = dict(symbols)
-        further = (*scene.of_rates.definitions, *scene.of_motions.definitions)
+        definitions = (*scene.definitions, *scene.of_rates.definitions)
         self.definitions = {
             item.name: item.value
-            for item in (*scene.definitions, *further)
+            for item in definitions
             if isinstance(item, Binding) and item.range is None
         }
         self.solves = {
             unknown: item
-            for item in (*scene.definitions, *further)
+            for item in definitions
             if isinstance(item, LinearSolve) and item.range is None
             for unknown in item.unknowns
         }

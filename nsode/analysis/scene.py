@@ -6,6 +6,7 @@ The derivatives are formed once, as expressions; :meth:`Scene.at` evaluates them
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import cached_property
 from itertools import chain
 
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from nsode.analysis.local import LAW, Constants, Element, Local
 from nsode.analysis.point import Matrix, Point, Vector, assemble, parameters, start
-from nsode.derivative import Jacobian, Row, linearize, time_derivatives
+from nsode.derivative import Entry, Jacobian, Row, linearize, time_derivatives
 from nsode.expr import TIME, Expr, Number, names
 from nsode.ode import (
     Binding,
@@ -59,25 +60,46 @@ class Scene:
         kinds = {name: t.kind for t in self.inclusion.terms for name in t.multiplier}
         return (row for row in self.arguments if kinds[row.state] == "dio")
 
-    @cached_property
+    @property
     def of_rates(self) -> Jacobian:
         """The derivatives of the rates by states and multipliers."""
-        return self._linearized(self.inclusion.rates)
+        return self._derivatives["rate"]
 
-    @cached_property
+    @property
     def of_arguments(self) -> Jacobian:
         """The derivatives of psi and theta."""
-        return self._linearized(self.arguments)
+        return self._derivatives["argument"]
 
-    @cached_property
+    @property
     def of_motions(self) -> Jacobian:
         """The derivatives of psi' and theta."""
-        return self._linearized(self.motions)
+        return self._derivatives["motion"]
 
-    @cached_property
+    @property
     def of_factors(self) -> Jacobian:
         """The derivatives of chi."""
-        return self._linearized(self.factors)
+        return self._derivatives["factor"]
+
+    @cached_property
+    def _derivatives(self) -> dict[str, Jacobian]:
+        """The derivatives of all four, over the same definitions."""
+        groups: dict[str, Sequence[Row | Rate]] = {
+            "rate": self.inclusion.rates,
+            "argument": self.arguments,
+            "motion": self.motions,
+            "factor": self.factors,
+        }
+        rows = [
+            Row(f"{group}.{row.state}", row.value, row.range)
+            for group, members in groups.items()
+            for row in members
+        ]
+        whole = self._linearized(rows)
+        entries: dict[str, list[Entry]] = {group: [] for group in groups}
+        for entry in whole.entries:
+            group, _, name = entry.row.id.partition(".")
+            entries[group].append(entry._replace(row=replace(entry.row, id=name)))
+        return {group: Jacobian(whole.definitions, tuple(mine)) for group, mine in entries.items()}
 
     def _linearized(self, rows: Sequence[Row | Rate]) -> Jacobian:
         return linearize(self.definitions, rows, {*self.states, *self.multipliers})
@@ -131,6 +153,7 @@ class Scene:
         self._load(here, np.zeros(width))
         rates, idle = self._rates(here), self._factor(here)
         self._load(here, np.zeros(width) if forces is None else forces)
+        here.define(self.of_rates.definitions)
         return Local(
             rates,
             *self._blocks(self.of_rates, here, self.states),
@@ -163,14 +186,12 @@ class Scene:
         self, jacobian: Jacobian, here: Point, rows: dict[str, Slot]
     ) -> tuple[Matrix, Matrix]:
         """Return the derivatives by the states and by the multipliers."""
-        inner = Point(dict(here.values), dict(here.first))
-        inner.define(jacobian.definitions)
         shape = _length(rows.values())
         blocks = []
         for columns in (self.states, self.multipliers):
             entries = [entry for entry in jacobian.entries if entry.column.id in columns]
             block = np.zeros((shape, _length(columns.values())))
-            found = assemble(entries, inner, rows, columns)
+            found = assemble(entries, here, rows, columns)
             block[: found.shape[0], : found.shape[1]] = found
             blocks.append(block)
         return blocks[0], blocks[1]
