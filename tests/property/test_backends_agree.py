@@ -186,7 +186,8 @@ def test_random_texts_have_one_jacobian(first):
         found = np.zeros((n, n))
         columns = np.repeat(np.arange(n), np.diff(module.jac_columns))
         found[module.jac_rows, columns] = module.jac(0.3, x, u, module.p0)
-        fine = np.isfinite(expected) & (np.abs(expected) < 1e100)
+        there_are = np.isfinite(module.rhs(0.3, x, u, module.p0))[:, None]  # rates to derive
+        fine = there_are & np.isfinite(expected) & (np.abs(expected) < 1e100)
         largest = np.abs(expected[fine]).max(initial=1.0)
         assert np.all(np.abs(found[fine] - expected[fine]) <= 1e-9 * largest), ode.source.text
 
