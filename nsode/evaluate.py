@@ -12,20 +12,14 @@ from nsode.expr import Call, Expr, If, Index, Name, Number, Sum
 Lookup = Callable[[str, int | None], float]
 
 
-def evaluate(
-    expr: Expr,
-    lookup: Lookup,
-    indices: Mapping[str, int] | None = None,
-    known: dict[int, float] | None = None,
-) -> float:
+def evaluate(expr: Expr, lookup: Lookup, indices: Mapping[str, int] | None = None) -> float:
     """Return the value of a scalar expression; conditions are 1.0 or 0.0.
 
     Division by zero and arguments outside a function's domain give infinities and
     NaN, as the generated code does. Trees that share parts, as derivatives do, cost
-    what their parts cost once; so do several trees that are given one ``known``, the
-    values of parts by their id, which holds for one lookup and one choice of indices.
+    what their parts cost once.
     """
-    return _value(expr, lookup, indices or {}, {} if known is None else known)
+    return _value(expr, lookup, indices or {}, {})
 
 
 def _value(expr: Expr, lookup: Lookup, at: Mapping[str, int], shared: dict[int, float]) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
@@ -16,9 +15,6 @@ from nsode.ode import Binding, Definition, LinearSolve, Parameter, SetValuedTerm
 
 Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
-
-#: For each choice of the index, what parts of expressions are worth (see `evaluate`).
-_Known = defaultdict[tuple[str, int] | None, dict[int, float]]
 
 
 @dataclass(slots=True)
@@ -41,27 +37,19 @@ class Point:
         self.values[name] = list(values)
         self.first[name] = span.first if span else 0
 
-    def value(
-        self, expr: Expr, span: IndexRange | None = None, known: _Known | None = None
-    ) -> list[float]:
+    def value(self, expr: Expr, span: IndexRange | None = None) -> list[float]:
         """Return the value of an expression at each index of a range."""
-        known = defaultdict(dict) if known is None else known
         if span is None:
-            return [evaluate(expr, self.lookup, None, known[None])]
-        places = [(span.variable, k) for k in range(span.first, span.last + 1)]
-        return [evaluate(expr, self.lookup, {at[0]: at[1]}, known[at]) for at in places]
+            return [evaluate(expr, self.lookup)]
+        indices = range(span.first, span.last + 1)
+        return [evaluate(expr, self.lookup, {span.variable: k}) for k in indices]
 
     def define(self, definitions: Iterable[Definition]) -> None:
-        """Compute definitions in order; multipliers that are not set are 0.
-
-        Derivatives share parts, thirty times over where they are of second order: each is
-        computed once.
-        """
-        known: _Known = defaultdict(dict)
+        """Compute definitions in order; multipliers that are not set are 0."""
         for item in definitions:
             match item:
                 case Binding(name, value, span):
-                    self.set(name, span, self.value(value, span, known))
+                    self.set(name, span, self.value(value, span))
                 case LinearSolve():
                     self._solve(item)
                 case SetValuedTerm(multiplier=multiplier, range=span):

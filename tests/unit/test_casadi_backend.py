@@ -19,6 +19,7 @@ from nsode.ode import AugmentedODE, AuxiliaryState, Binding, Input, Output, Para
 from support.models import MODELS, PATHS
 from support.modules import load_module
 from support.odes import Maker, call, ode, of_rates
+from support.remainders import REMAINDERS
 from support.running import Tracer
 
 ca = pytest.importorskip("casadi")
@@ -144,18 +145,7 @@ def test_building_leaves_the_settings_of_casadi_alone():
         assert ca.GlobalOptions.getSimplificationOnTheFly() is setting
 
 
-@pytest.mark.parametrize(
-    ("a", "b", "expected"),
-    [
-        (-1.5, 2, 0.5),
-        (1.5, -2, -0.5),
-        (5.5, 2, 1.5),
-        (-4, 2, 0),
-        (1, 0.1, 0.1 - 2.0**-54),  # a little less than ten times: 0.1 is a little more
-        (3, 0, NAN),
-        (-5, INF, INF),
-    ],
-)
+@pytest.mark.parametrize(("a", "b", "expected"), REMAINDERS)
 def test_mod_is_floored(a, b, expected):
     np.testing.assert_array_equal(value_and_slopes(call("mod", A, B), a, b)[0], expected)
 

@@ -25,6 +25,7 @@ from nsode.ode import (
 )
 from support.modules import load_module
 from support.odes import Maker, call, ode, of_rates
+from support.remainders import REMAINDERS
 from support.running import Tracer
 
 EPS = np.finfo(float).eps
@@ -95,18 +96,7 @@ def test_sat_cuts_off_at_its_level(level, x, expected):
     assert value(call("sat", Name("level"), Name("x")), level=level, x=x) == expected
 
 
-@pytest.mark.parametrize(
-    ("a", "b", "expected"),
-    [
-        (-1.5, 2, 0.5),
-        (1.5, -2, -0.5),
-        (5.5, 2, 1.5),
-        (-4, 2, 0),
-        (1, 0.1, 0.1 - 2.0**-54),  # a little less than ten times: 0.1 is a little more
-        (3, 0, NAN),
-        (-5, INF, INF),
-    ],
-)
+@pytest.mark.parametrize(("a", "b", "expected"), REMAINDERS)
 def test_mod_is_floored(a, b, expected):
     np.testing.assert_array_equal(value(call("mod", Name("a"), Name("b")), a=a, b=b), expected)
 
